@@ -1,0 +1,31 @@
+"""Two-dimensional explicit finite-element contact dynamics with the bipenalty method.
+
+A `Scene` says what there is, a `Model` advances it, a `Result` holds what was seen:
+
+>>> import bipenalty as bp
+>>> disc = bp.mesh.disc(radius=1.0, segments=32)
+>>> top = bp.Body("top", disc.moved(0, 2), bp.LinearElastic(young=1000, poisson=0.2, density=0.1))
+>>> bottom = bp.Body("bottom", disc, bp.LinearElastic(young=100, poisson=0.2, density=0.1), velocity=(2**0.5, 2**0.5))
+>>> scene = bp.Scene([top, bottom], contacts=[bp.Contact("top", "bottom")])
+>>> result = bp.Model(scene, bp.Bipenalty(ps=1.0)).run(0.01)
+>>> result.outcome
+'finished'
+"""
+
+from bipenalty import io, mesh
+from bipenalty.errors import BipenaltyError, InputError, RunError
+from bipenalty.materials import LinearElastic
+from bipenalty.mesh import Mesh
+from bipenalty.methods import Bipenalty, Stiffness
+from bipenalty.model import Model
+from bipenalty.result import Result
+from bipenalty.result_dataset import package_version
+from bipenalty.scene import Body, Contact, HalfPlane, Polyline, Scene, Support
+from bipenalty.sweep import sweep
+
+__version__ = package_version()
+
+__all__ = [
+    "BipenaltyError", "Bipenalty", "Body", "Contact", "HalfPlane", "InputError", "LinearElastic", "Mesh", "Model",
+    "Polyline", "Result", "RunError", "Scene", "Stiffness", "Support", "io", "mesh", "sweep",
+]

@@ -1,0 +1,217 @@
+"""A model: a scene with a method and a time step, ready to step or to run."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from bipenalty import _core, checks, progress
+from bipenalty.errors import InputError, RunError
+from bipenalty.lower import lower
+from bipenalty.methods import Bipenalty, Method
+from bipenalty.result import Result
+from bipenalty.result_dataset import run_dataset
+from bipenalty.scene import Scene
+
+FloatArray = np.ndarray[Any, np.dtype[np.float64]]
+
+#: Seconds that the core works before it lets the interpreter look at signals and the progress bar.
+SLICE = 0.05
+
+
+def time_step(critical_dt: float, dt: str | float, safety: float) -> float:
+    """The time step asked for: "element" is `safety` times the critical step of the elements.
+
+    Parameters
+    ----------
+    critical_dt : 2/omega_max of the elements, s (Irons and Fried 1971).
+    dt : "element", or a step in s (then `safety` is not used).
+    safety : -, in (0, 1].
+
+    Example
+    -------
+    >>> time_step(2e-4, "element", 0.5)
+    0.0001
+    """
+    if isinstance(dt, str):
+        checks.within("model", "dt", repr(dt), dt == "element", '"element" or a number of seconds', "correct it")
+        factor = checks.number("model", "safety", safety)
+        checks.within("model", "safety", factor, 0 < factor <= 1, "in (0, 1]", "0.5 leaves room for contact")
+        return factor * critical_dt
+    step = checks.number("model", "dt", dt)
+    checks.within("model", "dt", step, 0 < step < math.inf, "> 0 and finite", 'give seconds, or "element"')
+    return step
+
+
+class Model:
+    """A scene advanced by central differences with one penalty method.
+
+    Parameters
+    ----------
+    scene : what there is.
+    method : how contact is enforced.
+    dt : "element" for `safety` times the element bound, or seconds.
+    safety : share of the element bound, in (0, 1].
+    allow_unstable : accept a dt above the element bound.
+
+    Raises
+    ------
+    InputError : anything in the scene, the method or dt that is out of its bounds.
+
+    Example
+    -------
+    >>> import bipenalty as bp
+    >>> bar = bp.Body("bar", bp.mesh.rectangle(10, 1, 20, 1), bp.LinearElastic(900, 0, 1), velocity=(-10, 0))
+    >>> wall = bp.HalfPlane("wall", point=(-1, 0), normal=(1, 0))
+    >>> scene = bp.Scene([bar], contacts=[bp.Contact("bar", "wall")], obstacles=[wall])
+    >>> result = bp.Model(scene, bp.Bipenalty(ps=1.0)).run(1.0)
+    >>> result.outcome
+    'finished'
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        method: Method | None = None,
+        dt: str | float = "element",
+        safety: float = 0.5,
+        allow_unstable: bool = False,
+    ) -> None:
+        self.scene = scene
+        self.method: Method = Bipenalty() if method is None else method
+        checks.within("model", "method", type(self.method).__name__, isinstance(self.method, Method),
+                      "a Stiffness or Bipenalty", "make one with Stiffness(ps) or Bipenalty(ps)")
+        self._core = lower(scene)
+        self.critical_dt: float = self._core.critical_dt
+        self.dt = time_step(self.critical_dt, dt, safety)
+        start = (scene.velocity, scene.displacement)
+        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start)
+        self._seconds = 0.0
+
+    @property
+    def time(self) -> float:
+        """Time t_n, s."""
+        return self._run.time
+
+    @property
+    def steps(self) -> int:
+        """Steps taken."""
+        return self._run.steps
+
+    @property
+    def R(self) -> float:
+        """Penalty ratio, 1/s^2; infinite without a mass penalty."""
+        if self.method.R is not None:
+            return self.method.R
+        return math.inf if self.method.R_safety is None else self.method.R_safety * 4 / self.dt**2
+
+    @property
+    def displacement(self) -> FloatArray:
+        """Displacement u_n, read-only (N, 2) view, m; ask again after a step."""
+        return self._run.displacement
+
+    @property
+    def velocity(self) -> FloatArray:
+        """Velocity v_{n-1/2}, read-only (N, 2) view, m/s; ask again after a step."""
+        return self._run.velocity
+
+    @property
+    def outcome(self) -> str:
+        """"running", or how the run has ended."""
+        return self._run.outcome
+
+    def step(self, n: int = 1) -> None:
+        """Advance n steps in place.
+
+        Raises
+        ------
+        InputError : n is not a whole number >= 0.
+        RunError : the state has diverged; the message says why.
+        """
+        ok = isinstance(n, (int, np.integer)) and n >= 0
+        checks.within("step", "n", repr(n), ok, "a whole number >= 0", "give the number of steps")
+        self._run.advance(int(n), False)
+        if self._run.outcome != "running":
+            raise RunError(f"{self._run.outcome}: {self._run.reason}", self.result())
+
+    def run(
+        self,
+        t_end: float,
+        *,
+        snapshots: Iterable[float] = (),
+        every: int = 1,
+        energy_every: int = 10,
+        displacement_limit: float | None = None,
+        show_progress: bool | None = None,
+    ) -> Result:
+        """Run until t_end and return what was observed; Ctrl-C stops within a second and keeps what there is.
+
+        Parameters
+        ----------
+        t_end : s, after the present time.
+        snapshots : times (s) at which displacement and velocity are kept, at the nearest step.
+        every : contact histories every so many steps.
+        energy_every : energies every so many steps, and at the last.
+        displacement_limit : m; a run that passes it ends there with that outcome.
+        show_progress : None for a bar on a terminal only.
+
+        Returns
+        -------
+        Result, whatever the outcome: `result.outcome` and `result.reason` say how it ended.
+        """
+        steps = self._steps_to(t_end)
+        for name, value in (("every", every), ("energy_every", energy_every)):
+            ok = isinstance(value, (int, np.integer)) and value >= 1
+            checks.within("run", name, repr(value), ok, "a whole number >= 1", "give a number of steps")
+        kept = sorted({self._nearest_step(t, t_end, steps) for t in snapshots})
+        limit = math.inf if displacement_limit is None else checks.number("run", "displacement_limit",
+                                                                          displacement_limit)
+        self._run.configure(every, energy_every, kept, limit, steps)
+        interrupted = self._advance(steps, show_progress)
+        return self.result(interrupted=interrupted)
+
+    def _steps_to(self, t_end: float) -> int:
+        end = checks.number("run", "t_end", t_end)
+        checks.within("run", "t_end", end, self.time < end < math.inf, f"finite and after now ({self.time:g} s)",
+                      "give a later time")
+        return max(1, math.ceil((end - self.time) / self.dt - 1e-9))
+
+    def _nearest_step(self, t: float, t_end: float, steps: int) -> int:
+        when = checks.number("run", "snapshot", t)
+        checks.within("run", "snapshot", when, self.time <= when <= t_end * (1 + 1e-9),
+                      f"between now ({self.time:g} s) and t_end ({t_end:g} s)", "choose times within the run")
+        return min(round(when / self.dt), self.steps + steps - 1)
+
+    def _advance(self, steps: int, show: bool | None) -> bool:
+        """Work in slices short enough for Ctrl-C; true when interrupted."""
+        done, chunk, last = 0, 64, self.steps + steps
+        try:
+            with progress.bar(steps, "step", "run", show) as bar:
+                while done < steps and self._run.outcome == "running":
+                    n = min(chunk, steps - done)
+                    start = time.perf_counter()
+                    self._run.advance(n, self.steps + n == last)
+                    elapsed = time.perf_counter() - start
+                    self._seconds += elapsed
+                    done += n
+                    bar.update(n)
+                    chunk = max(1, min(4 * chunk, int(chunk * SLICE / max(elapsed, 1e-6))))
+        except KeyboardInterrupt:
+            return True
+        return False
+
+    def result(self, interrupted: bool = False) -> Result:
+        """What has been observed so far."""
+        if self.steps == 0 and not interrupted:
+            raise InputError("result: number of steps = 0, must be >= 1; step or run first")
+        seen = self._run.observations()
+        seen["seconds"] = self._seconds
+        if interrupted:
+            seen["outcome"], seen["reason"] = "interrupted", f"stopped by the user at t = {self.time:.4g} s"
+        elif seen["outcome"] == "running":
+            seen["outcome"] = "finished"
+        return Result(run_dataset(self, self._core, seen))

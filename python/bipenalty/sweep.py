@@ -1,0 +1,145 @@
+"""A sweep: one scene, many methods, one dataset."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from bipenalty import _core, checks, progress
+from bipenalty.lower import lower
+from bipenalty.methods import Method
+from bipenalty.model import SLICE, time_step
+from bipenalty.result_dataset import method_attributes, package_version
+from bipenalty.scene import Scene
+
+#: name: (unit, long name) of what every run of a sweep leaves behind.
+SUMMARY = {
+    "max_penetration": ("m", "deepest penetration of the run"),
+    "max_displacement": ("m", "largest displacement of the run"),
+    "peak_force": ("N/m", "largest total contact force"),
+    "impulse": ("N s/m", "impulse of the total contact force"),
+    "energy_ratio": ("1", "total energy at the end over that at the start"),
+    "steps": ("1", "steps taken"),
+    "seconds": ("s", "time the run took"),
+}
+
+
+def sweep(
+    scene: Scene,
+    methods: Sequence[Method],
+    t_end: float,
+    *,
+    dt: str | float = "element",
+    safety: float = 0.5,
+    allow_unstable: bool = False,
+    displacement_limit: float | None = None,
+    histories: bool = True,
+    threads: int | None = None,
+    show_progress: bool | None = None,
+) -> xr.Dataset:
+    """Run a scene with each method; a failed run is a labelled entry, never an exception for the rest.
+
+    Parameters
+    ----------
+    scene, dt, safety, allow_unstable : as for `Model`; the mesh is lowered once for all runs.
+    methods : penalty methods.
+    t_end : s, > 0.
+    displacement_limit : m; a run that passes it has failed and ends there.
+    histories : keep contact force and penetration of every step (16 bytes a run and step), else peaks only.
+    threads : how many; all processors unless given.
+    show_progress : None for a bar on a terminal only.
+
+    Returns
+    -------
+    Dataset over `run` (coordinates method, ps, R, D, zeta) with the peaks, `failed`, `outcome` and `reason`, and over
+    `run` and `time` the histories, NaN after an early end. Ctrl-C returns what there is; `finished` tells.
+
+    Example
+    -------
+    >>> import bipenalty as bp
+    >>> bar = bp.Body("bar", bp.mesh.rectangle(1, 1, 4, 4), bp.LinearElastic(900, 0, 1), velocity=(-1, 0))
+    >>> wall = bp.HalfPlane("wall", point=(0, 0), normal=(1, 0))
+    >>> scene = bp.Scene([bar], contacts=[bp.Contact("bar", "wall")], obstacles=[wall])
+    >>> bp.sweep(scene, [bp.Stiffness(1.0), bp.Bipenalty(1.0)], t_end=0.1).sizes["run"]
+    2
+    """
+    methods = list(methods)
+    for i, method in enumerate(methods):
+        checks.within("sweep", f"methods[{i}]", type(method).__name__, isinstance(method, Method),
+                      "a Stiffness or Bipenalty", "make one with Stiffness(ps) or Bipenalty(ps)")
+    checks.within("sweep", "number of methods", 0, len(methods) > 0, ">= 1", "give at least one method")
+    end = checks.number("sweep", "t_end", t_end)
+    checks.within("sweep", "t_end", end, 0 < end < math.inf, "> 0 and finite", "give the time to run to")
+    core = lower(scene)
+    step = time_step(core.critical_dt, dt, safety)
+    n = max(1, math.ceil(end / step - 1e-9))
+    limit = None if displacement_limit is None else checks.number("sweep", "displacement_limit", displacement_limit)
+    batch = _core.Batch(core, [(m, step, n) for m in methods], allow_unstable, scene.velocity, scene.displacement,
+                        limit, int(histories), 10)
+    interrupted = _work(batch, len(methods) * n * scene.n_nodes, threads or os.cpu_count() or 1, show_progress)
+    attributes = {"dt": step, "critical_dt": core.critical_dt, "t_end": end, "version": package_version(),
+                  "displacement_limit": math.inf if limit is None else limit, "interrupted": int(interrupted)}
+    return _dataset([batch.observations(i) for i in range(len(methods))], methods, step, n, histories, attributes)
+
+
+def _work(batch: _core.Batch, node_steps: int, threads: int, show: bool | None) -> bool:
+    """Work in slices short enough for Ctrl-C; true when interrupted."""
+    try:
+        with progress.bar(node_steps, "node-step", "sweep", show) as bar:
+            while batch.finished < len(batch):
+                bar.update(batch.advance(threads, SLICE))
+                bar.set_postfix_str(f"{batch.finished}/{len(batch)} runs", refresh=False)
+    except KeyboardInterrupt:
+        return True
+    return False
+
+
+def _dataset(
+    seen: list[dict[str, Any] | None],
+    methods: list[Method],
+    dt: float,
+    steps: int,
+    histories: bool,
+    attributes: dict[str, Any],
+) -> xr.Dataset:
+    lost = {name: math.nan for name in SUMMARY} | {"outcome": "lost", "reason": "its thread died", "planned_steps": 0}
+    runs = [lost if s is None else s for s in seen]
+    ended = [_outcome(run) for run in runs]
+    labels = [method_attributes(m, _ratio(m, dt)) for m in methods]
+    coords: dict[str, Any] = {key: ("run", [label[key] for label in labels]) for key in labels[0]}
+    coords["D"] = ("run", coords["D"][1], {"units": "s", "long_name": "damping penalty factor"})
+    coords["R"] = ("run", coords["R"][1], {"units": "s-2", "long_name": "penalty ratio"})
+    data: dict[str, Any] = {
+        name: ("run", np.array([run[name] for run in runs], dtype=float), {"units": unit, "long_name": about})
+        for name, (unit, about) in SUMMARY.items()
+    }
+    data["outcome"] = ("run", ended)
+    data["reason"] = ("run", [str(run["reason"]) for run in runs])
+    data["failed"] = ("run", np.array([e not in ("finished", "interrupted") for e in ended]))
+    data["finished"] = ("run", np.array([e == "finished" for e in ended]))
+    if histories:
+        coords["time"] = ("time", np.arange(steps) * dt, {"units": "s", "long_name": "time"})
+        for name, unit in (("contact_force", "N/m"), ("penetration", "m")):
+            values = np.full((len(runs), steps), np.nan)
+            for row, run in zip(values, seen, strict=True):
+                if run is not None:
+                    row[run["time_step"]] = run[name]
+            data[name] = (("run", "time"), values, {"units": unit, "long_name": name.replace("_", " ")})
+    return xr.Dataset(data, coords, attributes)
+
+
+def _outcome(run: dict[str, Any]) -> str:
+    if run["outcome"] != "running":
+        return str(run["outcome"])
+    return "finished" if run["steps"] >= run["planned_steps"] else "interrupted"
+
+
+def _ratio(method: Method, dt: float) -> float:
+    if method.R is not None:
+        return method.R
+    return math.inf if method.R_safety is None else method.R_safety * 4 / dt**2

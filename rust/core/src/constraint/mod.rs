@@ -1,0 +1,4 @@
+//! Constraints other than contact, one file each.
+
+pub mod linear;
+pub mod support;

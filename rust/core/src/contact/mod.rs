@@ -1,0 +1,10 @@
+//! Contact: candidate pairs from the broad phase, gaps from the narrow phase, rows for what penetrates.
+
+pub mod gap;
+pub mod overlap;
+pub mod pair;
+pub mod search;
+pub mod surface;
+
+pub use pair::{Pair, Primary};
+pub use surface::Surface;

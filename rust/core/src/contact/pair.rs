@@ -1,0 +1,168 @@
+//! A contact pair: secondary nodes against a primary surface; the narrow phase and its rows.
+
+use super::gap::{Gap, Location, Projection, dot, from_to, gap_at_vertex, gap_inside, long_normal, project};
+use super::surface::{Surface, position};
+use crate::lane::Lane;
+use crate::row::{Penalties, Row};
+
+/// A secondary node with its neighbours along its own surface.
+#[derive(Debug, Clone, Copy)]
+pub struct SurfaceNode {
+    /// Node of the model.
+    pub node: u32,
+    /// Node before it on the loop.
+    pub before: u32,
+    /// Node after it on the loop.
+    pub after: u32,
+}
+
+/// What the secondary nodes must not enter.
+#[derive(Debug, Clone)]
+pub enum Primary {
+    /// Segments of a body or of a rigid polyline.
+    Surface(Surface),
+    /// Rigid half-plane: the body stays where (x - point) . normal >= 0.
+    HalfPlane {
+        /// A point of the line (m).
+        point: [f64; 2],
+        /// Unit normal out of the obstacle.
+        normal: [f64; 2],
+    },
+}
+
+/// Secondary nodes against one primary, in one direction.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    /// Which contact of the scene it serves; a contact of two passes has two pairs.
+    pub contact: u32,
+    /// True for the pair whose secondary nodes belong to the contact's first-named body.
+    pub first_pass: bool,
+    /// Body of the secondary nodes.
+    pub secondary_body: u32,
+    /// Body of the primary surface; none when rigid.
+    pub primary_body: Option<u32>,
+    /// Secondary nodes.
+    pub secondary: Vec<SurfaceNode>,
+    /// Mean length of the edges between secondary nodes in the reference configuration (m).
+    pub secondary_length: f64,
+    /// Primary surface.
+    pub primary: Primary,
+    /// Young's modulus of the stiffer body (N/m^2).
+    pub young: f64,
+}
+
+impl Pair {
+    /// Rows of the candidates that penetrate: gap below zero.
+    pub fn rows(
+        &self,
+        candidates: &super::search::Candidates,
+        points: &[[f64; 2]],
+        displacement: Lane,
+        penalties: Penalties,
+        rows: &mut Vec<Row>,
+    ) {
+        match &self.primary {
+            Primary::HalfPlane { point, normal } => {
+                for (node, _) in candidates.iter() {
+                    let gap = dot(from_to(*point, position(node, points, displacement)), *normal);
+                    if gap < 0.0 {
+                        rows.push(Row::new(&[(node, *normal)], self.contact, gap, penalties));
+                    }
+                }
+            }
+            Primary::Surface(surface) => {
+                for (node, segments) in candidates.iter() {
+                    let p = position(node, points, displacement);
+                    if let Some((segment, gap)) = penetration(surface, segments, p, points, displacement) {
+                        rows.push(self.row(surface, node, segment, gap, penalties));
+                    }
+                }
+            }
+        }
+    }
+
+    fn row(&self, surface: &Surface, node: u32, segment: u32, gap: Gap, penalties: Penalties) -> Row {
+        let mut entries = [(node, gap.normal), (0, [0.0; 2]), (0, [0.0; 2])];
+        let mut count = 1;
+        for (vertex, w) in surface.segments[segment as usize].ends.into_iter().zip(gap.weights) {
+            if let Some(primary) = surface.node(vertex).filter(|_| w != 0.0) {
+                entries[count] = (primary, [-w * gap.normal[0], -w * gap.normal[1]]);
+                count += 1;
+            }
+        }
+        Row::new(&entries[..count], self.contact, gap.gap, penalties)
+    }
+}
+
+/// Gap of a node to the nearest of its candidate segments, if that is a penetration.
+#[inline]
+fn penetration(
+    surface: &Surface,
+    segments: &[u32],
+    p: [f64; 2],
+    points: &[[f64; 2]],
+    displacement: Lane,
+) -> Option<(u32, Gap)> {
+    // A point inside lies behind the line of its nearest segment: in front of all of them there is no contact.
+    let behind = |&s: &u32| {
+        let [a, b] = surface.ends(s, points, displacement);
+        dot(from_to(a, p), long_normal(a, b)) < 0.0
+    };
+    if !segments.iter().any(behind) {
+        return None;
+    }
+    let (segment, nearest) = nearest(surface, segments, p, points, displacement)?;
+    let gap = signed_gap(surface, segment, nearest, p, points, displacement)?;
+    (gap.gap < 0.0).then_some((segment, gap))
+}
+
+/// Nearest of the segments, the first one of equals.
+pub(super) fn nearest(
+    surface: &Surface,
+    segments: &[u32],
+    p: [f64; 2],
+    points: &[[f64; 2]],
+    displacement: Lane,
+) -> Option<(u32, Projection)> {
+    let mut best: Option<(u32, Projection)> = None;
+    for &s in segments {
+        let [a, b] = surface.ends(s, points, displacement);
+        let projection = project(p, a, b);
+        if best.is_none_or(|(_, other)| projection.distance2 < other.distance2) {
+            best = Some((s, projection));
+        }
+    }
+    best
+}
+
+/// Signed gap to the closest point found; none past the end of an open surface.
+pub(super) fn signed_gap(
+    surface: &Surface,
+    segment: u32,
+    projection: Projection,
+    p: [f64; 2],
+    points: &[[f64; 2]],
+    displacement: Lane,
+) -> Option<Gap> {
+    let ends = surface.ends(segment, points, displacement);
+    match projection.location {
+        Location::Inside(xi) => Some(gap_inside(p, ends[0], ends[1], xi)),
+        Location::End(end) => {
+            let this = surface.segments[segment as usize];
+            let other = if end == 0 { this.before } else { this.after }?;
+            let own = surface.normal(segment, points, displacement);
+            let next = surface.normal(other, points, displacement);
+            Some(gap_at_vertex(p, ends[end], end, own, next, surface.mean_length))
+        }
+    }
+}
+
+impl Pair {
+    /// Mean segment length of the primary surface; of the secondary one against a half-plane (m).
+    pub fn segment_length(&self) -> f64 {
+        match &self.primary {
+            Primary::Surface(surface) => surface.mean_length,
+            Primary::HalfPlane { .. } => self.secondary_length,
+        }
+    }
+}

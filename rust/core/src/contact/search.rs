@@ -1,0 +1,230 @@
+//! Broad phase: candidate node-segment pairs inside a skin, searched again only when the skin is used up.
+
+use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::math::Vector;
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, BvhWorkspace};
+
+use super::gap::{dot, from_to, unit_normal};
+use super::pair::{Pair, Primary, SurfaceNode, nearest, signed_gap};
+use super::surface::{Surface, Vertices, position};
+use crate::error::{Error, Result};
+use crate::lane::Lane;
+
+/// Skin over mean segment length: half a segment of travel between searches.
+const SKIN: f64 = 0.5;
+
+/// Candidate segments of each secondary node that may come into contact before the next search.
+#[derive(Debug, Clone, Default)]
+pub struct Candidates {
+    nodes: Vec<u32>,
+    start: Vec<u32>,
+    segments: Vec<u32>,
+}
+
+impl Candidates {
+    /// Each candidate node with its segments.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, &[u32])> {
+        let segments = |i: usize| &self.segments[self.start[i] as usize..self.start[i + 1] as usize];
+        self.nodes.iter().enumerate().map(move |(i, &node)| (node, segments(i)))
+    }
+
+    fn clear(&mut self) {
+        self.nodes.clear();
+        self.segments.clear();
+        self.start.clear();
+        self.start.push(0);
+    }
+
+    fn push(&mut self, node: u32) {
+        self.nodes.push(node);
+        self.start.push(self.segments.len() as u32);
+    }
+}
+
+/// Search state of one lane: candidates of every pair, and where the surfaces were when they were found.
+#[derive(Default)]
+pub struct Search {
+    /// Candidates of each pair.
+    pub candidates: Vec<Candidates>,
+    /// How often the broad phase has run.
+    pub count: usize,
+    watched: Vec<Watched>,
+    trees: Vec<Bvh>,
+    workspace: BvhWorkspace,
+    near: Vec<u32>,
+}
+
+/// Surface nodes of one body and their displacements at the last search.
+struct Watched {
+    body: u32,
+    nodes: Vec<u32>,
+    then: Vec<[f64; 2]>,
+}
+
+impl Search {
+    /// Watches the surfaces of the pairs; the first call of `keep` searches.
+    pub fn new(pairs: &[Pair]) -> Self {
+        let mut search = Self::default();
+        search.candidates.resize_with(pairs.len(), Candidates::default);
+        search.trees.resize_with(pairs.len(), Bvh::new);
+        for pair in pairs {
+            search.watch(pair.secondary_body, pair.secondary.iter().map(|s| s.node));
+            if let (Primary::Surface(Surface { vertices: Vertices::Nodes(nodes), .. }), Some(body)) =
+                (&pair.primary, pair.primary_body)
+            {
+                search.watch(body, nodes.iter().copied());
+            }
+        }
+        search
+    }
+
+    fn watch(&mut self, body: u32, nodes: impl Iterator<Item = u32>) {
+        if self.watched.iter().all(|w| w.body != body) {
+            let nodes: Vec<u32> = nodes.collect();
+            let then = vec![[f64::NAN; 2]; nodes.len()];
+            self.watched.push(Watched { body, nodes, then });
+        }
+    }
+
+    /// Searches again if the surfaces of any pair have used up its skin since the last search.
+    ///
+    /// # Errors
+    /// A surface position that is not finite.
+    pub fn keep(&mut self, pairs: &[Pair], points: &[[f64; 2]], displacement: Lane) -> Result<()> {
+        if pairs.is_empty() || (self.count > 0 && !self.used_up(pairs, displacement)) {
+            return Ok(());
+        }
+        for watched in &mut self.watched {
+            for (then, &node) in watched.then.iter_mut().zip(&watched.nodes) {
+                *then = displacement.at(node);
+                if !(then[0].is_finite() && then[1].is_finite()) {
+                    return Err(Error::Run(format!(
+                        "node {node}: displacement is not finite; the run has diverged: reduce dt or the penalties"
+                    )));
+                }
+            }
+        }
+        for (i, pair) in pairs.iter().enumerate() {
+            self.search(i, pair, points, displacement);
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    /// True when the two surfaces of a pair may have come closer by more than its skin. NaN counts as used up.
+    fn used_up(&self, pairs: &[Pair], displacement: Lane) -> bool {
+        let moved = |body: Option<u32>| {
+            let Some(watched) = self.watched.iter().find(|w| Some(w.body) == body) else {
+                return 0.0;
+            };
+            let distance2 = |(then, &node): (&[f64; 2], &u32)| {
+                let d = from_to(*then, displacement.at(node));
+                dot(d, d)
+            };
+            // A comparison that lets NaN through to the result, unlike f64::max.
+            let larger = |a: f64, b: f64| if b <= a { a } else { b };
+            watched.then.iter().zip(&watched.nodes).map(distance2).fold(0.0, larger).sqrt()
+        };
+        pairs.iter().any(|pair| {
+            let travel = moved(Some(pair.secondary_body)) + moved(pair.primary_body);
+            travel.is_nan() || travel > skin(pair)
+        })
+    }
+
+    fn search(&mut self, index: usize, pair: &Pair, points: &[[f64; 2]], displacement: Lane) {
+        let candidates = &mut self.candidates[index];
+        candidates.clear();
+        match &pair.primary {
+            Primary::HalfPlane { point, normal } => {
+                let reach = skin(pair);
+                for s in &pair.secondary {
+                    if dot(from_to(*point, position(s.node, points, displacement)), *normal) <= reach {
+                        candidates.push(s.node);
+                    }
+                }
+            }
+            Primary::Surface(surface) => {
+                let tree = &mut self.trees[index];
+                let boxes = (0..surface.segments.len()).map(|i| {
+                    let [a, b] = surface.ends(i as u32, points, displacement).map(|x| Vector::new(x[0], x[1]));
+                    (i, Aabb::new(a.min(b), a.max(b)))
+                });
+                if tree.is_empty() {
+                    *tree = Bvh::from_iter(BvhBuildStrategy::Binned, boxes);
+                } else {
+                    boxes.for_each(|(i, aabb)| _ = tree.insert_or_update_partially(aabb, i as u32, 0.0));
+                    tree.refit(&mut self.workspace);
+                }
+                let near = Near { surface, tree, points, displacement, skin: skin(pair) };
+                for node in &pair.secondary {
+                    near.collect(node, &mut self.near, candidates);
+                }
+            }
+        }
+    }
+}
+
+/// Skin of a pair (m).
+fn skin(pair: &Pair) -> f64 {
+    match &pair.primary {
+        Primary::Surface(surface) => SKIN * surface.mean_length,
+        Primary::HalfPlane { .. } => SKIN * pair.secondary_length,
+    }
+}
+
+/// What decides which segments of one surface a node may meet before the next search.
+struct Near<'a> {
+    surface: &'a Surface,
+    tree: &'a Bvh,
+    points: &'a [[f64; 2]],
+    displacement: Lane<'a>,
+    skin: f64,
+}
+
+impl Near<'_> {
+    /// Facing segments that can become the nearest one while the skin lasts.
+    fn collect(&self, secondary: &SurfaceNode, near: &mut Vec<u32>, candidates: &mut Candidates) {
+        let p = position(secondary.node, self.points, self.displacement);
+        self.facing(secondary, p, near);
+        let Some((segment, nearest)) = nearest(self.surface, near, p, self.points, self.displacement) else {
+            return;
+        };
+        // An outside node farther than the skin cannot arrive; past the end of an open surface the sign is unknown.
+        let gap = signed_gap(self.surface, segment, nearest, p, self.points, self.displacement);
+        let distance = nearest.distance2.sqrt();
+        if gap.is_none_or(|g| g.gap >= 0.0) && distance > self.skin {
+            return;
+        }
+        let reach = distance + 2.0 * self.skin;
+        for &s in near.iter() {
+            let [a, b] = self.surface.ends(s, self.points, self.displacement);
+            if super::gap::project(p, a, b).distance2 <= reach * reach {
+                candidates.segments.push(s);
+            }
+        }
+        candidates.push(secondary.node);
+    }
+
+    /// Segments whose box is within reach and whose normal opposes the node's own: a thin body has two sides.
+    fn facing(&self, secondary: &SurfaceNode, p: [f64; 2], near: &mut Vec<u32>) {
+        let at = |node| position(node, self.points, self.displacement);
+        let (n1, n2) = (unit_normal(at(secondary.before), p), unit_normal(p, at(secondary.after)));
+        let normal = [n1[0] + n2[0], n1[1] + n2[1]];
+        let reach = depth(self.surface) + self.skin;
+        let (low, high) = (Vector::new(p[0] - reach, p[1] - reach), Vector::new(p[0] + reach, p[1] + reach));
+        let around = BvhNode::leaf(Aabb::new(low, high), 0);
+        near.clear();
+        for leaf in self.tree.leaves(|node| around.intersects(node)) {
+            let n = self.surface.normal(leaf, self.points, self.displacement);
+            if dot(n, normal) < 0.0 {
+                near.push(leaf);
+            }
+        }
+        near.sort_unstable();
+    }
+}
+
+/// Deepest penetration (m) that the search still sees.
+fn depth(surface: &Surface) -> f64 {
+    (0.5 * surface.extent).max(2.0 * surface.mean_length)
+}

@@ -1,0 +1,80 @@
+//! Energies and momentum at a full step, from what the step leaves behind.
+
+use crate::lane::Lane;
+use crate::mass_block::RowForces;
+use crate::model::Model;
+use crate::row::Row;
+use crate::state::State;
+
+/// Energies (J per m of depth) and the largest displacement at t_n.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Energies {
+    /// Kinetic energy `v_n' M v_n / 2`.
+    pub kinetic: f64,
+    /// Strain energy `u_n' K u_n / 2`.
+    pub strain: f64,
+    /// Energy stored in the stiffness penalties, `A_s g^2 / 2`.
+    pub penalty: f64,
+    /// Kinetic energy of the mass penalties, `A_m (G v_n)^2 / 2`.
+    pub mass_penalty: f64,
+    /// Potential of the body forces, `-u_n' f`.
+    pub load_potential: f64,
+    /// Largest nodal displacement (m).
+    pub max_displacement: f64,
+}
+
+impl Energies {
+    /// Sum of all energies.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.strain + self.penalty + self.mass_penalty + self.load_potential
+    }
+}
+
+/// Energies at t_n just after the step from t_n: `before` is v_{n-1/2}, the state holds v_{n+1/2} and, in `other`, u_n.
+///
+/// The strain energy takes K u_n from the equation of motion, `K u = f + G' lambda - M (v+ - v-)/dt`, so that no
+/// second product with K is needed. `momentum` receives each body's `sum m v_n`.
+pub fn sample(
+    model: &Model,
+    dt: f64,
+    state: &State,
+    before: &[f64],
+    rows: &[Row],
+    forces: &RowForces,
+    momentum: &mut [[f64; 2]],
+) -> Energies {
+    let (old, new) = (Lane::new(before, state.lanes, 0), Lane::new(&state.velocity, state.lanes, 0));
+    let u = Lane::new(&state.other, state.lanes, 0);
+    let mut e = Energies::default();
+    let (mut kinetic, mut work, mut largest) = (0.0, 0.0, 0.0);
+    for (body, p) in model.bodies.iter().zip(momentum) {
+        *p = [0.0; 2];
+        for node in body.nodes.clone() {
+            let (m, a, b, x) = (model.mass[node], old.at(node as u32), new.at(node as u32), u.at(node as u32));
+            let v = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+            kinetic += m * (v[0] * v[0] + v[1] * v[1]);
+            work += m * (x[0] * (b[0] - a[0]) + x[1] * (b[1] - a[1]));
+            *p = [p[0] + m * v[0], p[1] + m * v[1]];
+            let size = x[0] * x[0] + x[1] * x[1];
+            // Lets NaN through, unlike f64::max.
+            largest = if size <= largest { largest } else { size };
+        }
+    }
+    let mut loads = 0.0;
+    for (node, f) in model.load.iter().flatten().enumerate() {
+        let x = u.at(node as u32);
+        loads += f[0] * x[0] + f[1] * x[1];
+    }
+    let mut contact = 0.0;
+    for (row, lambda) in rows.iter().zip(&forces.lambda) {
+        let rate = 0.5 * (row.along(old) + row.along(new));
+        e.penalty += 0.5 * row.penalties.alpha_s * row.gap * row.gap;
+        e.mass_penalty += 0.5 * row.penalties.alpha_m * rate * rate;
+        contact += lambda * row.along(u);
+    }
+    e.kinetic = 0.5 * kinetic;
+    e.strain = 0.5 * (contact + loads - work / dt);
+    e.load_potential = -loads;
+    e.max_displacement = largest.sqrt();
+    e
+}

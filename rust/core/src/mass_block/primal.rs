@@ -1,0 +1,143 @@
+//! Primal solution of the mass block: sparse Cholesky of `M + G'PG` (the only file that knows faer).
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::cholesky::simplicial::{
+    EliminationTreeRef, factorize_simplicial_numeric_llt_scratch, factorize_simplicial_numeric_llt_with_row_idx,
+    prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
+};
+use faer::sparse::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_lower_triangular_transpose_in_place,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par};
+
+use super::pattern::{NONE, Pattern};
+use crate::error::{Error, Result};
+use crate::lane::Lane;
+use crate::model::Model;
+use crate::row::Row;
+
+/// Pattern, its symbolic factorisation and the buffers of the numeric one; they grow and are never given back.
+#[derive(Default)]
+pub struct Primal {
+    pattern: Pattern,
+    tree: Vec<i32>,
+    counts: Vec<u32>,
+    factor_start: Vec<u32>,
+    factor_row: Vec<u32>,
+    factor: Vec<f64>,
+    values: Vec<f64>,
+    solution: Vec<f64>,
+    memory: Option<MemBuffer>,
+    capacity: usize,
+    analyses: usize,
+}
+
+impl Primal {
+    /// Acceleration of the touched degrees of freedom: `[M + G'PG] a = f - K u - G'(A_s g + A_d G v)`.
+    pub fn solve(&mut self, model: &Model, rows: &[Row], dt: f64, u: Lane, v: Lane) -> Result<()> {
+        if self.pattern.update(model, rows) {
+            self.analyse();
+        }
+        self.assemble(model, rows, dt, u, v);
+        self.factorise_and_solve()
+    }
+
+    /// `G_c a` of a row over the solution.
+    #[inline]
+    pub fn along(&self, row: &Row) -> f64 {
+        let component = |node, axis: usize| match self.pattern.local(node, axis) {
+            NONE => 0.0,
+            local => self.solution[local as usize],
+        };
+        row.entries().map(|(node, g)| g[0] * component(node, 0) + g[1] * component(node, 1)).sum()
+    }
+
+    /// Number of symbolic factorisations so far.
+    pub fn analyses(&self) -> usize {
+        self.analyses
+    }
+
+    /// Symbolic factorisation: elimination tree and column starts of the factor.
+    fn analyse(&mut self) {
+        let n = self.pattern.size();
+        self.analyses += 1;
+        if n > self.capacity {
+            let need = prefactorize_symbolic_cholesky_scratch::<u32>(n, 0)
+                .or(factorize_simplicial_numeric_llt_scratch::<u32, f64>(n));
+            self.memory = Some(MemBuffer::new(need));
+            self.capacity = n;
+        }
+        self.tree.resize(n, 0);
+        self.counts.resize(n, 0);
+        let matrix = symbolic(&self.pattern);
+        if let Some(memory) = &mut self.memory {
+            prefactorize_symbolic_cholesky(&mut self.tree, &mut self.counts, matrix, MemStack::new(memory));
+        }
+        self.factor_start.clear();
+        self.factor_start.push(0);
+        let mut total = 0;
+        for count in &self.counts {
+            total += count;
+            self.factor_start.push(total);
+        }
+        self.factor.resize(total as usize, 0.0);
+        self.factor_row.resize(total as usize, 0);
+        self.values.resize(self.pattern.row_index.len(), 0.0);
+        self.solution.resize(n, 0.0);
+    }
+
+    fn assemble(&mut self, model: &Model, rows: &[Row], dt: f64, u: Lane, v: Lane) {
+        self.values.fill(0.0);
+        let mut force = ([0.0; 2], NONE);
+        for (local, &(node, axis)) in self.pattern.dofs.iter().enumerate() {
+            // The two axes of a node follow each other: its nodal force is computed once.
+            if force.1 != node {
+                force = (model.nodal_force(node, u), node);
+            }
+            self.solution[local] = force.0[axis as usize];
+            self.values[self.pattern.diagonal[local] as usize] = 1.0 / model.inverse_mass[node as usize][axis as usize];
+        }
+        let mut scatter = self.pattern.scatter.as_slice();
+        for row in rows {
+            let p = &row.penalties;
+            scatter = self.pattern.add(row, p.inertia(dt), scatter, &mut self.values);
+            let push = p.alpha_s * row.gap + p.alpha_d * row.along(v);
+            for (node, g) in row.entries() {
+                for axis in 0..2 {
+                    let local = self.pattern.local(node, axis);
+                    if local != NONE {
+                        self.solution[local as usize] -= g[axis] * push;
+                    }
+                }
+            }
+        }
+    }
+
+    fn factorise_and_solve(&mut self) -> Result<()> {
+        let matrix = SparseColMatRef::new(symbolic(&self.pattern), self.values.as_slice());
+        // SAFETY: the array was filled by prefactorize_symbolic_cholesky for this very pattern and not changed since.
+        let tree = unsafe { EliminationTreeRef::<u32>::from_inner(&self.tree) };
+        if let Some(memory) = &mut self.memory {
+            let (factor, rows, start) = (&mut self.factor, &mut self.factor_row, &self.factor_start);
+            let (stack, none) = (MemStack::new(memory), LltRegularization::default());
+            factorize_simplicial_numeric_llt_with_row_idx(factor, rows, start, tree, matrix, none, stack).map_err(
+                |_| Error::Run("mass block: not positive definite; the run has diverged: reduce dt".to_string()),
+            )?;
+        }
+        let n = self.solution.len();
+        let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &self.factor_start, None, &self.factor_row);
+        let lower = SparseColMatRef::new(pattern, self.factor.as_slice());
+        let mut solution = MatMut::from_column_major_slice_mut(&mut self.solution, n, 1);
+        solve_lower_triangular_in_place(lower, Conj::No, solution.as_mut(), Par::Seq);
+        solve_lower_triangular_transpose_in_place(lower, Conj::No, solution, Par::Seq);
+        Ok(())
+    }
+}
+
+/// The pattern as faer's view of an upper triangle.
+fn symbolic(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
+    let n = pattern.size();
+    SymbolicSparseColMatRef::new_checked(n, n, &pattern.column_start, None, &pattern.row_index)
+}

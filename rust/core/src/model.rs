@@ -1,0 +1,151 @@
+//! The model: a scene lowered to arrays that never change.
+
+use std::ops::Range;
+
+use crate::boundary::boundary_loops;
+use crate::constraint::linear::Linear;
+use crate::contact::Pair;
+use crate::error::{Error, Result};
+use crate::lane::Lane;
+use crate::lower;
+use crate::scene::{BodySpec, Scene};
+use crate::stiffness::BlockCsr;
+use crate::stiffness::assembly::assemble;
+
+/// One body within the model.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Its nodes.
+    pub nodes: Range<usize>,
+    /// Young's modulus (N/m^2).
+    pub young: f64,
+    /// Outward boundary loops in the model's node numbers.
+    pub loops: Vec<Vec<u32>>,
+    /// Largest element eigenfrequency (rad/s).
+    pub element_omega: f64,
+}
+
+/// One contact of the scene, for reports.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    /// First-named body and its partner.
+    pub names: [String; 2],
+    /// First-named body.
+    pub body: u32,
+    /// Overlap allowed at the start (m).
+    pub overlap_tolerance: f64,
+}
+
+/// K, M, surfaces and rows: shared by all runs, changed by none.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Reference coordinates X (m).
+    pub points: Vec<[f64; 2]>,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Stiffness K (N/m) of all bodies.
+    pub stiffness: BlockCsr,
+    /// Lumped mass (kg) of each node.
+    pub mass: Vec<f64>,
+    /// Inverse mass (1/kg) by node and axis; 0 where a support holds it.
+    pub inverse_mass: Vec<[f64; 2]>,
+    /// Nodal load f (N) of the body forces, if the scene has any.
+    pub load: Option<Vec<[f64; 2]>>,
+    /// Contacts by name.
+    pub contacts: Vec<Contact>,
+    /// Contact pairs, one a pass.
+    pub pairs: Vec<Pair>,
+    /// Rows that are always active.
+    pub linear: Vec<Linear>,
+}
+
+impl Model {
+    /// Builds the model.
+    ///
+    /// # Errors
+    /// Anything in the scene that is out of its bounds; see the messages.
+    pub fn new(scene: Scene) -> Result<Self> {
+        let mut model = Self {
+            points: Vec::new(),
+            bodies: Vec::new(),
+            stiffness: BlockCsr { row_start: vec![0], ..BlockCsr::default() },
+            mass: Vec::new(),
+            inverse_mass: Vec::new(),
+            load: None,
+            contacts: Vec::new(),
+            pairs: Vec::new(),
+            linear: scene.linear,
+        };
+        if scene.bodies.is_empty() {
+            return Err(Error::bound("scene", "number of bodies", 0, ">= 1", "add a body"));
+        }
+        for body in scene.bodies {
+            model.add_body(body)?;
+        }
+        for support in &scene.supports {
+            let object = format!("support of \"{}\"", support.body);
+            let nodes = lower::find_body(&model.bodies, &support.body, &object)?.1.nodes.clone();
+            support.apply(&mut model.inverse_mass[nodes])?;
+        }
+        for contact in &scene.contacts {
+            lower::add_contact(&mut model, contact, &scene.obstacles)?;
+        }
+        Ok(model)
+    }
+
+    fn add_body(&mut self, body: BodySpec) -> Result<()> {
+        let object = format!("body \"{}\"", body.name);
+        if self.bodies.iter().any(|b| b.name == body.name) {
+            let name = format!("\"{}\"", body.name);
+            return Err(Error::bound("scene", "body name", name, "used once", "rename one of the bodies"));
+        }
+        body.material.check(&object)?;
+        if !(body.thickness > 0.0 && body.thickness.is_finite()) {
+            let remedy = "give it in m; 1 for a plane problem per metre of depth";
+            return Err(Error::bound(&object, "thickness", body.thickness, "> 0 and finite", remedy));
+        }
+        let in_body = |e: Error| Error::Input(format!("{object}: {e}"));
+        let (mesh, _) = body.mesh.checked().map_err(in_body)?;
+        let loops = boundary_loops(&mesh).map_err(in_body)?;
+        let parts = assemble(&mesh, &body.material, body.thickness);
+
+        let first = self.points.len();
+        let nodes = first..first + mesh.points.len();
+        let blocks = self.stiffness.block.len() as u32;
+        self.stiffness.row_start.extend(parts.stiffness.row_start[1..].iter().map(|s| s + blocks));
+        self.stiffness.column.extend(parts.stiffness.column.iter().map(|c| c + first as u32));
+        self.stiffness.block.extend(parts.stiffness.block);
+        self.inverse_mass.extend(parts.mass.iter().map(|m| [1.0 / m; 2]));
+        if body.body_force != [0.0; 2] || self.load.is_some() {
+            // Row-sum lumping shares the body force out as it does the mass.
+            let share = |m: &f64| body.body_force.map(|b| b * m / body.material.density);
+            let load = self.load.get_or_insert_default();
+            load.resize(first, [0.0; 2]);
+            load.extend(parts.mass.iter().map(share));
+        }
+        self.mass.extend(parts.mass);
+        self.points.extend(mesh.points);
+        let loops = loops.into_iter().map(|ring| ring.into_iter().map(|n| (n + first) as u32).collect()).collect();
+        let (name, young, element_omega) = (body.name, body.material.young, parts.element_omega);
+        self.bodies.push(Body { name, nodes, young, loops, element_omega });
+        Ok(())
+    }
+
+    /// Largest element eigenfrequency of all bodies (rad/s).
+    pub fn element_omega(&self) -> f64 {
+        self.bodies.iter().map(|b| b.element_omega).fold(0.0, f64::max)
+    }
+
+    /// Nodal force f - K u (N) of one node.
+    pub fn nodal_force(&self, node: u32, displacement: Lane) -> [f64; 2] {
+        let [mut fx, mut fy] = self.load.as_ref().map_or([0.0; 2], |load| load[node as usize]);
+        for (column, k) in self.stiffness.row(node as usize) {
+            let u = displacement.at(column as u32);
+            fx -= k[0] * u[0] + k[1] * u[1];
+            fy -= k[2] * u[0] + k[3] * u[1];
+        }
+        [fx, fy]
+    }
+}

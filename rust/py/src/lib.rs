@@ -1,0 +1,32 @@
+//! Python bindings of `bipenalty`: arrays in, arrays out, no numerics.
+
+mod arrays;
+mod batch;
+mod errors;
+mod mesh;
+mod model;
+mod observations;
+mod run;
+mod scene;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::batch::Batch;
+    #[pymodule_export]
+    use super::mesh::check_mesh;
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::run::Run;
+
+    use super::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("instruction_set", bipenalty::stiffness::Isa::detect().name())
+    }
+}
