@@ -81,5 +81,5 @@ $(VENV)/.packages: requirements.lock $(VENV)/.place
 	@touch $@
 
 $(EXTENSION): $(SOURCES) $(VENV)/.packages
-	VIRTUAL_ENV="$(CURDIR)/$(VENV)" $(VENV)/bin/maturin develop --release --locked
+	VIRTUAL_ENV="$(CURDIR)/$(VENV)" PIP_QUIET=1 $(VENV)/bin/maturin develop --release --locked
 	@touch -c $@

@@ -49,8 +49,30 @@ def total_energy(run: xr.Dataset) -> xr.DataArray:
 
 
 def check(run: xr.Dataset) -> None:
-    """The collision as mechanics wants it: balance of momentum and energy, hardly any penetration."""
+    """What mechanics asks of any such run, and the numbers of this one."""
     assert run.attrs["outcome"] == "finished", run.attrs["reason"]
+    hammer = run["momentum"].sel(body="hammer")
+    gained = (hammer[-1] - hammer[0]).values  # N s/m
+    impulse = run.attrs["dt"] * run["force_on"].sum("time")[0].values
+    np.testing.assert_allclose(gained, impulse, atol=1e-9 * abs(impulse[1]))
+
+    energy = total_energy(run)
+    assert abs(energy / energy[0] - 1).max() < 1e-3  # nothing gained or lost in the contact
+
+    nose_segment = 1.6e-3  # m
+    assert 0 < run.attrs["max_penetration"] < 0.05 * nose_segment
+
+    assert run["contact_force"][-1] == 0  # they have parted
+    restitution = float(-hammer.sel(axis="y")[-1] / hammer.sel(axis="y")[0])
+    assert 0.92 < restitution < 0.96  # the rest of the energy rings in the bodies
+
+    base = bp.mesh.read(MESH, region="anvil").nodes_of("base")
+    anvil = run["displacement"][:, run["body_of_node"].values == 1]
+    assert (anvil[:, base] == 0).all()
+    print(
+        f"peak force {1e-3 * run.attrs['peak_force']:.1f} kN/m, impulse {impulse[1]:.2f} N s/m, "
+        f"restitution {restitution:.3f}, penetration at most {1e6 * run.attrs['max_penetration']:.0f} um"
+    )
 
 
 def draw(run: xr.Dataset, path: Path) -> None:

@@ -111,6 +111,24 @@ def test_paraview_one_kind_of_cell(run: xr.Dataset, tmp_path: Path) -> None:
     assert [block.type for block in meshio.read(pvd.with_name("run_0000.vtu")).cells] == ["quad"]
 
 
+def test_a_real_run(tmp_path: Path) -> None:
+    """Through `Result`: what comes back is what was there, and the last file holds the last snapshot."""
+    block = bp.mesh.rectangle(1.0, 1.0, 2, 2)
+    steel = bp.LinearElastic(young=900.0, poisson=0.3, density=1.0)
+    upper = bp.Body("upper", bp.mesh.disc(segments=16, centre=(0.5, 2.001)), steel, velocity=(0.0, -1.0))
+    scene = bp.Scene([bp.Body("lower", block, steel), upper], contacts=[bp.Contact("lower", "upper")])
+    result = bp.Model(scene, bp.Bipenalty(ps=1.0)).run(0.05, snapshots=[0.0, 0.02, 0.05])
+    back = bp.io.read_netcdf(result.to_netcdf(tmp_path / "run.nc"))
+    xr.testing.assert_identical(back, result.dataset)
+    folder = result.to_paraview(tmp_path).parent
+    last = meshio.read(folder / "run_0002.vtu")
+    assert [(block.type, len(block.data)) for block in last.cells] == [("quad", 4 + 32)]
+    assert last.point_data["body"].tolist() == [0] * 9 + [1] * 41
+    moved = last.points[:, :2] - result.dataset["points"].values
+    np.testing.assert_allclose(moved, result.dataset["displacement"][-1], atol=1e-15)
+    assert moved[9:, 1].mean() < -0.04
+
+
 def test_paraview_bad_input(run: xr.Dataset, tmp_path: Path) -> None:
     with pytest.raises(
         InputError, match=r"has no velocity; give it one run made with run\(t_end, snapshots="

@@ -101,7 +101,7 @@ BAD_MESHES = [
     ({"points": [*POINTS[:5], [math.inf, 1]]}, r"points\[5\] = \(inf, 1.0\), must be finite"),
     ({"points": np.empty((0, 2))}, "points = 0, must be"),
     ({"triangles": None, "quads": []}, "number of elements = 0, must be >= 1; give triangles or quads"),
-    ({"quads": [[0, 1, 4]]}, r"quads has shape \(1, 3\), must be \(count, 4\); 4 node indices"),
+    ({"quads": [[0, 1, 4]]}, r"quads has shape \(1, 3\), must be \(count, 4\); 4 node numbers"),
     ({"quads": [0, 1, 4, 3]}, r"quads has shape \(4,\), must be \(count, 4\)"),
     ({"triangles": [[1, 2, 5], [1, 5]]}, "triangles has rows of different lengths, must be"),
     (

@@ -64,8 +64,6 @@ class Mesh:
         points = check.coordinates(who, self.points)
         given_triangles = check.connectivity(who, "triangles", self.triangles, 3)
         given_quads = check.connectivity(who, "quads", self.quads, 4)
-        if len(given_triangles) + len(given_quads) == 0:
-            raise InputError(f"{self}: 0 elements, must have at least 1; give triangles, quads or both")
         try:
             triangles, quads, turned, loops = _core.check_mesh(points, given_triangles, given_quads)
         except InputError as error:

@@ -61,7 +61,7 @@ def run_dataset(model: Model, core: _core.Model, seen: dict[str, Any]) -> xr.Dat
         "active_rows": ("time", seen["active_rows"], _about("1", "active rows")),
         "force_on": (("time", "contact", "axis"), seen["force_on"], _about("N/m", "force on the first-named body")),
         "momentum": (("energy_time", "body", "axis"), seen["momentum"], _about("N s/m", "momentum")),
-        "max_displacement_of_time": ("energy_time", seen["largest_displacement"], _about("m", "largest displacement")),
+        "largest_displacement": ("energy_time", seen["largest_displacement"], _about("m", "largest displacement")),
         "displacement": (("snapshot_time", "node", "axis"), snapshots("displacement"), _about("m", "displacement")),
         "velocity": (("snapshot_time", "node", "axis"), snapshots("velocity"), _about("m/s", "velocity")),
     }

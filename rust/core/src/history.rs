@@ -1,6 +1,8 @@
 //! What a run has observed: contact at every step, energies at every few, snapshots at chosen ones.
 
+use crate::critical_step::row_omega2;
 use crate::energy::Energies;
+use crate::mass_block::RowForces;
 use crate::model::Model;
 use crate::row::Row;
 
@@ -26,7 +28,7 @@ pub struct Peaks {
     pub impulse: f64,
     /// Largest displacement sampled (m).
     pub displacement: f64,
-    /// Largest single-row frequency squared sampled (1/s^2).
+    /// Largest single-row frequency squared (1/s^2).
     pub row_omega2: f64,
 }
 
@@ -86,15 +88,7 @@ impl History {
     }
 
     /// Takes in the rows of a step and their forces; `keep` adds them to the histories too.
-    pub fn observe(
-        &mut self,
-        model: &Model,
-        step: u64,
-        dt: f64,
-        rows: &[Row],
-        forces: &crate::mass_block::RowForces,
-        keep: bool,
-    ) {
+    pub fn observe(&mut self, model: &Model, step: u64, dt: f64, rows: &[Row], forces: &RowForces, keep: bool) {
         let contacts = model.contacts.len();
         let first = self.force_on.len();
         if keep {
@@ -121,6 +115,7 @@ impl History {
         self.peaks.penetration = self.peaks.penetration.max(deepest);
         self.peaks.force = self.peaks.force.max(total);
         self.peaks.impulse += dt * total;
+        self.peaks.row_omega2 = self.peaks.row_omega2.max(row_omega2(model, rows));
         if keep {
             self.steps.push(step);
             self.force.push(total);
@@ -130,13 +125,12 @@ impl History {
     }
 
     /// Takes in an energy sample.
-    pub fn sample(&mut self, step: u64, energies: Energies, row_omega2: f64, momentum: &[[f64; 2]]) {
+    pub fn sample(&mut self, step: u64, energies: Energies, momentum: &[[f64; 2]]) {
         self.energy_steps.push(step);
         self.energies.push(energies);
         self.damping_loss.push(self.lost);
         self.momentum.extend_from_slice(momentum);
         let peaks = &mut self.peaks;
-        peaks.row_omega2 = peaks.row_omega2.max(row_omega2);
         let largest = energies.max_displacement;
         peaks.displacement = if largest <= peaks.displacement { peaks.displacement } else { largest };
     }

@@ -48,7 +48,7 @@ impl Mesh {
         let count = self.points.len();
         for (kind, e, nodes) in self.elements() {
             if let Some(&bad) = nodes.iter().find(|&&n| n >= count) {
-                let bound = format!("in 0..{count} (the mesh has {count} points)");
+                let bound = format!("from 0 to {} (the mesh has {count} points)", count - 1);
                 return Err(Error::bound("mesh", &format!("{kind} {e} node"), bad, &bound, "number nodes from 0"));
             }
             if (1..nodes.len()).any(|i| nodes[..i].contains(&nodes[i])) {

@@ -143,8 +143,8 @@ impl Model {
         let [mut fx, mut fy] = self.load.as_ref().map_or([0.0; 2], |load| load[node as usize]);
         for (column, k) in self.stiffness.row(node as usize) {
             let u = displacement.at(column as u32);
-            fx -= k[0] * u[0] + k[1] * u[1];
-            fy -= k[2] * u[0] + k[3] * u[1];
+            fx -= k[0] * u[0] + k[2] * u[1];
+            fy -= k[1] * u[0] + k[3] * u[1];
         }
         [fx, fy]
     }

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use crate::contact::overlap;
-use crate::critical_step::{element_bound, row_omega2};
+use crate::critical_step::element_bound;
 use crate::energy;
 use crate::error::{Error, Result};
 use crate::history::{History, Record, Snapshot};
 use crate::lane::Lane;
 use crate::model::Model;
-use crate::outcome::{Outcome, diverged, passed_displacement_limit};
+use crate::outcome::{Limits, Outcome};
 use crate::penalty::Method;
 use crate::state::State;
 use crate::step::{Settings, Workspace, step};
@@ -132,19 +132,28 @@ impl Run {
         }
         if sample {
             let e = energy::sample(&self.model, dt, &self.state, &self.before, rows, forces, &mut self.momentum);
-            self.history.sample(n, e, row_omega2(&self.model, rows), &self.momentum);
+            self.history.sample(n, e, &self.momentum);
             self.judge(n, e.max_displacement);
         }
         Ok(())
     }
 
     fn judge(&mut self, n: u64, displacement: f64) {
-        let (time, omega) = (n as f64 * self.settings.dt, self.model.element_omega());
+        let penalties = self.settings.pairs.iter().chain(&self.settings.linear);
+        let limits = Limits {
+            time: n as f64 * self.settings.dt,
+            dt: self.settings.dt,
+            element_omega: self.model.element_omega(),
+            row_omega: self.history.peaks.row_omega2.sqrt(),
+            // Without a mass penalty the frequencies of mesh and rows add up; with one, the larger of them and R rules.
+            mass_penalty: penalties.clone().all(|p| p.alpha_s == 0.0 || p.alpha_m > 0.0),
+            ratio: penalties.map(|p| p.alpha_s / p.alpha_m).fold(0.0, f64::max),
+            energy_ratio: self.history.energy_ratio(),
+        };
         if !displacement.is_finite() {
-            self.outcome = Outcome::Diverged(diverged(time, self.settings.dt, omega, &self.history));
+            self.outcome = Outcome::Diverged(limits.diverged());
         } else if displacement > self.displacement_limit {
-            let limit = (displacement, self.displacement_limit);
-            let reason = passed_displacement_limit(limit, time, self.settings.dt, omega, &self.history);
+            let reason = limits.passed_displacement(displacement, self.displacement_limit);
             self.outcome = Outcome::DisplacementLimit(reason);
         }
     }

@@ -37,7 +37,7 @@ impl Support {
         }
         for &node in &self.nodes {
             if node >= inverse_mass.len() {
-                let bound = format!("in 0..{} (the body's nodes)", inverse_mass.len());
+                let bound = format!("from 0 to {} (the body's nodes)", inverse_mass.len() - 1);
                 return Err(Error::bound(&object, "node", node, &bound, "number nodes from 0"));
             }
             for axis in (0..2).filter(|&a| self.fixed[a]) {

@@ -72,6 +72,14 @@ pub fn project(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Projection {
     Projection { distance2: (vector(p) - closest.point).length_squared(), location }
 }
 
+/// True when the foot of the perpendicular passes an end of the segment by no more than round-off.
+#[inline]
+pub fn is_at_end(p: [f64; 2], a: [f64; 2], b: [f64; 2], end: usize) -> bool {
+    let t = from_to(a, b);
+    let xi = dot(from_to(a, p), t) / dot(t, t);
+    (xi - end as f64).abs() < 1e-9
+}
+
 /// Gap to the line of a segment whose closest point lies inside it.
 #[inline]
 pub fn gap_inside(p: [f64; 2], a: [f64; 2], b: [f64; 2], xi: f64) -> Gap {

@@ -1,6 +1,7 @@
 //! A contact pair: secondary nodes against a primary surface; the narrow phase and its rows.
 
-use super::gap::{Gap, Location, Projection, dot, from_to, gap_at_vertex, gap_inside, long_normal, project};
+use super::gap::{Gap, Location, Projection, dot, from_to, gap_at_vertex, gap_inside, is_at_end, long_normal, project};
+use super::search::{Candidate, Candidates};
 use super::surface::{Surface, position};
 use crate::lane::Lane;
 use crate::row::{Penalties, Row};
@@ -55,7 +56,7 @@ impl Pair {
     /// Rows of the candidates that penetrate: gap below zero.
     pub fn rows(
         &self,
-        candidates: &super::search::Candidates,
+        candidates: &Candidates,
         points: &[[f64; 2]],
         displacement: Lane,
         penalties: Penalties,
@@ -94,42 +95,60 @@ impl Pair {
     }
 }
 
-/// Gap of a node to the nearest of its candidate segments, if that is a penetration.
+/// Outside by less than this share of the primary's extent counts as on the surface when the side is decided: a node
+/// that slides along a flank must not come and go with round-off.
+const ON_SURFACE: f64 = 1e-9;
+
+/// Gap of a node to the nearest segment that faces it, if the node lies inside the primary.
+///
+/// The nearest of all segments tells inside from outside; the nearest that faces the node tells where to push it,
+/// so that a node past the middle of a thin body goes back the way it came.
 #[inline]
 fn penetration(
     surface: &Surface,
-    segments: &[u32],
+    candidates: &[Candidate],
     p: [f64; 2],
     points: &[[f64; 2]],
     displacement: Lane,
 ) -> Option<(u32, Gap)> {
     // A point inside lies behind the line of its nearest segment: in front of all of them there is no contact.
-    let behind = |&s: &u32| {
-        let [a, b] = surface.ends(s, points, displacement);
+    let behind = |c: &Candidate| {
+        let [a, b] = surface.ends(c.segment, points, displacement);
         dot(from_to(a, p), long_normal(a, b)) < 0.0
     };
-    if !segments.iter().any(behind) {
+    if !candidates.iter().any(behind) {
         return None;
     }
-    let (segment, nearest) = nearest(surface, segments, p, points, displacement)?;
-    let gap = signed_gap(surface, segment, nearest, p, points, displacement)?;
+    let place = (p, points, displacement);
+    let (closest, projection) = nearest(surface, candidates.iter(), place)?;
+    let gap = signed_gap(surface, closest.segment, projection, place)?;
+    if gap.gap > ON_SURFACE * surface.size {
+        return None;
+    }
+    let (segment, gap) = if closest.faces {
+        (closest.segment, gap)
+    } else {
+        let (facing, projection) = nearest(surface, candidates.iter().filter(|c| c.faces), place)?;
+        (facing.segment, signed_gap(surface, facing.segment, projection, place)?)
+    };
     (gap.gap < 0.0).then_some((segment, gap))
 }
 
+/// Position of a node, with what places the segments: reference points and displacement.
+pub(super) type Place<'a> = ([f64; 2], &'a [[f64; 2]], Lane<'a>);
+
 /// Nearest of the segments, the first one of equals.
-pub(super) fn nearest(
+pub(super) fn nearest<'c>(
     surface: &Surface,
-    segments: &[u32],
-    p: [f64; 2],
-    points: &[[f64; 2]],
-    displacement: Lane,
-) -> Option<(u32, Projection)> {
-    let mut best: Option<(u32, Projection)> = None;
-    for &s in segments {
-        let [a, b] = surface.ends(s, points, displacement);
+    candidates: impl Iterator<Item = &'c Candidate>,
+    (p, points, displacement): Place,
+) -> Option<(Candidate, Projection)> {
+    let mut best: Option<(Candidate, Projection)> = None;
+    for &candidate in candidates {
+        let [a, b] = surface.ends(candidate.segment, points, displacement);
         let projection = project(p, a, b);
         if best.is_none_or(|(_, other)| projection.distance2 < other.distance2) {
-            best = Some((s, projection));
+            best = Some((candidate, projection));
         }
     }
     best
@@ -140,19 +159,19 @@ pub(super) fn signed_gap(
     surface: &Surface,
     segment: u32,
     projection: Projection,
-    p: [f64; 2],
-    points: &[[f64; 2]],
-    displacement: Lane,
+    (p, points, displacement): Place,
 ) -> Option<Gap> {
-    let ends = surface.ends(segment, points, displacement);
+    let [a, b] = surface.ends(segment, points, displacement);
     match projection.location {
-        Location::Inside(xi) => Some(gap_inside(p, ends[0], ends[1], xi)),
+        Location::Inside(xi) => Some(gap_inside(p, a, b, xi)),
+        // Past an end by round-off only: the segment's own normal, not one made of round-off.
+        Location::End(end) if is_at_end(p, a, b, end) => Some(gap_inside(p, a, b, end as f64)),
         Location::End(end) => {
             let this = surface.segments[segment as usize];
             let other = if end == 0 { this.before } else { this.after }?;
             let own = surface.normal(segment, points, displacement);
             let next = surface.normal(other, points, displacement);
-            Some(gap_at_vertex(p, ends[end], end, own, next, surface.mean_length))
+            Some(gap_at_vertex(p, if end == 0 { a } else { b }, end, own, next, surface.mean_length))
         }
     }
 }

@@ -4,8 +4,8 @@ use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, BvhWorkspace};
 
-use super::gap::{dot, from_to, unit_normal};
-use super::pair::{Pair, Primary, SurfaceNode, nearest, signed_gap};
+use super::gap::{dot, from_to, project, unit_normal};
+use super::pair::{Pair, Place, Primary, SurfaceNode, nearest, signed_gap};
 use super::surface::{Surface, Vertices, position};
 use crate::error::{Error, Result};
 use crate::lane::Lane;
@@ -13,19 +13,38 @@ use crate::lane::Lane;
 /// Skin over mean segment length: half a segment of travel between searches.
 const SKIN: f64 = 0.5;
 
+/// Facing is less than this scalar product of a segment's unit normal and the sum of the node's two: flanks at a right
+/// angle must not come and go with round-off.
+const FACING: f64 = -1e-6;
+
+/// A segment that a node may meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// Segment of the primary surface.
+    pub segment: u32,
+    /// Whether its normal opposes the node's own: a thin body has two sides, and only one is met.
+    pub faces: bool,
+}
+
 /// Candidate segments of each secondary node that may come into contact before the next search.
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
     nodes: Vec<u32>,
     start: Vec<u32>,
-    segments: Vec<u32>,
+    segments: Vec<Candidate>,
 }
 
 impl Candidates {
     /// Each candidate node with its segments.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, &[u32])> {
+    pub fn iter(&self) -> impl Iterator<Item = (u32, &[Candidate])> {
         let segments = |i: usize| &self.segments[self.start[i] as usize..self.start[i + 1] as usize];
         self.nodes.iter().enumerate().map(move |(i, &node)| (node, segments(i)))
+    }
+
+    /// Room for every node with a few segments.
+    fn with_room(nodes: usize) -> Self {
+        let (start, segments) = (Vec::with_capacity(nodes + 1), Vec::with_capacity(8 * nodes));
+        Self { nodes: Vec::with_capacity(nodes), start, segments }
     }
 
     fn clear(&mut self) {
@@ -51,7 +70,7 @@ pub struct Search {
     watched: Vec<Watched>,
     trees: Vec<Bvh>,
     workspace: BvhWorkspace,
-    near: Vec<u32>,
+    near: Vec<Candidate>,
 }
 
 /// Surface nodes of one body and their displacements at the last search.
@@ -65,10 +84,13 @@ impl Search {
     /// Watches the surfaces of the pairs; the first call of `keep` searches.
     pub fn new(pairs: &[Pair]) -> Self {
         let mut search = Self::default();
-        search.candidates.resize_with(pairs.len(), Candidates::default);
+        search.candidates.extend(pairs.iter().map(|pair| Candidates::with_room(pair.secondary.len())));
         search.trees.resize_with(pairs.len(), Bvh::new);
         for pair in pairs {
             search.watch(pair.secondary_body, pair.secondary.iter().map(|s| s.node));
+            if let Primary::Surface(surface) = &pair.primary {
+                search.near.reserve(surface.segments.len());
+            }
             if let (Primary::Surface(Surface { vertices: Vertices::Nodes(nodes), .. }), Some(body)) =
                 (&pair.primary, pair.primary_body)
             {
@@ -182,31 +204,33 @@ struct Near<'a> {
 }
 
 impl Near<'_> {
-    /// Facing segments that can become the nearest one while the skin lasts.
-    fn collect(&self, secondary: &SurfaceNode, near: &mut Vec<u32>, candidates: &mut Candidates) {
-        let p = position(secondary.node, self.points, self.displacement);
-        self.facing(secondary, p, near);
-        let Some((segment, nearest)) = nearest(self.surface, near, p, self.points, self.displacement) else {
-            return;
-        };
-        // An outside node farther than the skin cannot arrive; past the end of an open surface the sign is unknown.
-        let gap = signed_gap(self.surface, segment, nearest, p, self.points, self.displacement);
-        let distance = nearest.distance2.sqrt();
+    /// Segments that can become the node's nearest, or its nearest facing one, while the skin lasts.
+    fn collect(&self, secondary: &SurfaceNode, near: &mut Vec<Candidate>, candidates: &mut Candidates) {
+        let place = (position(secondary.node, self.points, self.displacement), self.points, self.displacement);
+        self.around(secondary, place, near);
+        let Some((closest, projection)) = nearest(self.surface, near.iter(), place) else { return };
+        let gap = signed_gap(self.surface, closest.segment, projection, place);
+        let distance = projection.distance2.sqrt();
+        // An outside node farther than the skin cannot arrive; past the end of an open surface the side is unknown.
         if gap.is_none_or(|g| g.gap >= 0.0) && distance > self.skin {
             return;
         }
+        let facing = nearest(self.surface, near.iter().filter(|c| c.faces), place);
+        let Some((_, facing)) = facing else { return };
         let reach = distance + 2.0 * self.skin;
-        for &s in near.iter() {
-            let [a, b] = self.surface.ends(s, self.points, self.displacement);
-            if super::gap::project(p, a, b).distance2 <= reach * reach {
-                candidates.segments.push(s);
+        let reach_facing = facing.distance2.sqrt() + 2.0 * self.skin;
+        for &candidate in near.iter() {
+            let [a, b] = self.surface.ends(candidate.segment, self.points, self.displacement);
+            let distance = project(place.0, a, b).distance2.sqrt();
+            if distance <= reach || (candidate.faces && distance <= reach_facing) {
+                candidates.segments.push(candidate);
             }
         }
         candidates.push(secondary.node);
     }
 
-    /// Segments whose box is within reach and whose normal opposes the node's own: a thin body has two sides.
-    fn facing(&self, secondary: &SurfaceNode, p: [f64; 2], near: &mut Vec<u32>) {
+    /// Segments whose box is within reach of the node.
+    fn around(&self, secondary: &SurfaceNode, (p, ..): Place, near: &mut Vec<Candidate>) {
         let at = |node| position(node, self.points, self.displacement);
         let (n1, n2) = (unit_normal(at(secondary.before), p), unit_normal(p, at(secondary.after)));
         let normal = [n1[0] + n2[0], n1[1] + n2[1]];
@@ -214,13 +238,11 @@ impl Near<'_> {
         let (low, high) = (Vector::new(p[0] - reach, p[1] - reach), Vector::new(p[0] + reach, p[1] + reach));
         let around = BvhNode::leaf(Aabb::new(low, high), 0);
         near.clear();
-        for leaf in self.tree.leaves(|node| around.intersects(node)) {
-            let n = self.surface.normal(leaf, self.points, self.displacement);
-            if dot(n, normal) < 0.0 {
-                near.push(leaf);
-            }
+        for segment in self.tree.leaves(|node| around.intersects(node)) {
+            let n = self.surface.normal(segment, self.points, self.displacement);
+            near.push(Candidate { segment, faces: dot(n, normal) < FACING });
         }
-        near.sort_unstable();
+        near.sort_unstable_by_key(|c| c.segment);
     }
 }
 

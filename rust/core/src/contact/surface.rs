@@ -35,6 +35,8 @@ pub struct Surface {
     pub mean_length: f64,
     /// Smaller extent of the bounding box in the reference configuration (m).
     pub extent: f64,
+    /// Larger extent of the bounding box (m).
+    pub size: f64,
 }
 
 impl Surface {
@@ -60,12 +62,12 @@ impl Surface {
             t[0].hypot(t[1])
         };
         let mean_length = segments.iter().map(length).sum::<f64>() / segments.len() as f64;
-        let mut extent = f64::INFINITY;
-        for axis in 0..2 {
+        let [width, height] = [0, 1].map(|axis| {
             let values = || rings.iter().flatten().map(|&v| at(v)[axis]);
-            extent = extent.min(values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min));
-        }
-        Self { vertices, segments, mean_length, extent }
+            values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+        });
+        let (extent, size) = (width.min(height), width.max(height));
+        Self { vertices, segments, mean_length, extent, size }
     }
 
     /// Number of vertices.

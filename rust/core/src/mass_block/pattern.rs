@@ -1,7 +1,7 @@
 //! Pattern of the mass block: which degrees of freedom the active rows touch and how they couple.
 
 use crate::model::Model;
-use crate::row::Row;
+use crate::row::{MAX_NODES, Row};
 
 /// Mark of a degree of freedom outside the block.
 pub const NONE: u32 = u32::MAX;
@@ -27,6 +27,20 @@ pub struct Pattern {
 }
 
 impl Pattern {
+    /// Makes room for a number of rows, so that no set of so many rows allocates.
+    pub fn reserve(&mut self, rows: usize) {
+        let (nodes, products) = (rows * MAX_NODES, rows * MAX_NODES * (2 * MAX_NODES + 1));
+        for key in [&mut self.key, &mut self.next_key] {
+            reserve_total(key, 2 * nodes + rows);
+        }
+        reserve_total(&mut self.dofs, 2 * nodes);
+        reserve_total(&mut self.column_start, 2 * nodes + 1);
+        reserve_total(&mut self.diagonal, 2 * nodes);
+        reserve_total(&mut self.pairs, products + 2 * nodes);
+        reserve_total(&mut self.row_index, products + 2 * nodes);
+        reserve_total(&mut self.scatter, products);
+    }
+
     /// Size of the block.
     pub fn size(&self) -> usize {
         self.dofs.len()
@@ -108,6 +122,11 @@ impl Pattern {
         });
         &scatter[used..]
     }
+}
+
+/// Room for `total` entries altogether.
+pub fn reserve_total<T>(buffer: &mut Vec<T>, total: usize) {
+    buffer.reserve(total.saturating_sub(buffer.len()));
 }
 
 /// Visits i, j and g_i g_j for the upper triangle (i <= j) of a row's touched degrees of freedom.

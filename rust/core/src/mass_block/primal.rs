@@ -12,11 +12,11 @@ use faer::sparse::linalg::triangular_solve::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
-use super::pattern::{NONE, Pattern};
+use super::pattern::{NONE, Pattern, reserve_total};
 use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::model::Model;
-use crate::row::Row;
+use crate::row::{MAX_NODES, Row};
 
 /// Pattern, its symbolic factorisation and the buffers of the numeric one; they grow and are never given back.
 #[derive(Default)]
@@ -30,13 +30,14 @@ pub struct Primal {
     values: Vec<f64>,
     solution: Vec<f64>,
     memory: Option<MemBuffer>,
-    capacity: usize,
+    room: usize,
     analyses: usize,
 }
 
 impl Primal {
     /// Acceleration of the touched degrees of freedom: `[M + G'PG] a = f - K u - G'(A_s g + A_d G v)`.
     pub fn solve(&mut self, model: &Model, rows: &[Row], dt: f64, u: Lane, v: Lane) -> Result<()> {
+        self.make_room(rows.len());
         if self.pattern.update(model, rows) {
             self.analyse();
         }
@@ -59,16 +60,32 @@ impl Primal {
         self.analyses
     }
 
+    /// Room for as many rows, whatever their pattern; sets larger than any before are the only ones that allocate.
+    fn make_room(&mut self, rows: usize) {
+        if rows <= self.room {
+            return;
+        }
+        self.room = rows.next_power_of_two();
+        let n = 2 * MAX_NODES * self.room;
+        let need = prefactorize_symbolic_cholesky_scratch::<u32>(n, 0)
+            .or(factorize_simplicial_numeric_llt_scratch::<u32, f64>(n));
+        self.memory = Some(MemBuffer::new(need));
+        self.pattern.reserve(self.room);
+        reserve_total(&mut self.tree, n);
+        reserve_total(&mut self.counts, n);
+        reserve_total(&mut self.factor_start, n + 1);
+        reserve_total(&mut self.solution, n);
+        reserve_total(&mut self.values, MAX_NODES * (2 * MAX_NODES + 1) * self.room + n);
+        // A full factor where that is small; in long surfaces each unknown couples to its neighbours only.
+        let factor = (n * (n + 1) / 2).min(64 * n);
+        reserve_total(&mut self.factor, factor);
+        reserve_total(&mut self.factor_row, factor);
+    }
+
     /// Symbolic factorisation: elimination tree and column starts of the factor.
     fn analyse(&mut self) {
         let n = self.pattern.size();
         self.analyses += 1;
-        if n > self.capacity {
-            let need = prefactorize_symbolic_cholesky_scratch::<u32>(n, 0)
-                .or(factorize_simplicial_numeric_llt_scratch::<u32, f64>(n));
-            self.memory = Some(MemBuffer::new(need));
-            self.capacity = n;
-        }
         self.tree.resize(n, 0);
         self.counts.resize(n, 0);
         let matrix = symbolic(&self.pattern);

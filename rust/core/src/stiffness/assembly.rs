@@ -44,7 +44,7 @@ impl Assembled {
                 let columns = &self.stiffness.column[row.clone()];
                 let at = row.start + columns.partition_point(|&c| (c as usize) < j);
                 for (s, value) in self.stiffness.block[at].iter_mut().enumerate() {
-                    *value += k(2 * a + s / 2, 2 * b + s % 2);
+                    *value += k(2 * a + s % 2, 2 * b + s / 2);
                 }
             }
         }

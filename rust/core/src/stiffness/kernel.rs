@@ -77,15 +77,15 @@ fn product_row<const L: usize, M: Madd>(p: &Pass<L>, blocks: std::ops::Range<usi
         let [ux, uy] = &u[column as usize];
         for lane in 0..L {
             sum[0][lane] = M::madd(k[0], ux[lane], sum[0][lane]);
-            sum[1][lane] = M::madd(k[1], uy[lane], sum[1][lane]);
-            sum[2][lane] = M::madd(k[2], ux[lane], sum[2][lane]);
+            sum[1][lane] = M::madd(k[1], ux[lane], sum[1][lane]);
+            sum[2][lane] = M::madd(k[2], uy[lane], sum[2][lane]);
             sum[3][lane] = M::madd(k[3], uy[lane], sum[3][lane]);
         }
     }
     let mut product = [[0.0; L]; 2];
     for lane in 0..L {
-        product[0][lane] = sum[0][lane] + sum[1][lane];
-        product[1][lane] = sum[2][lane] + sum[3][lane];
+        product[0][lane] = sum[0][lane] + sum[2][lane];
+        product[1][lane] = sum[1][lane] + sum[3][lane];
     }
     product
 }

@@ -13,7 +13,7 @@ pub struct BlockCsr {
     pub row_start: Vec<u32>,
     /// Column node of each block.
     pub column: Vec<u32>,
-    /// Blocks row by row: k_xx, k_xy, k_yx, k_yy (N/m).
+    /// Blocks by columns, so that one column meets one component of u: k_xx, k_yx, k_xy, k_yy (N/m).
     pub block: Vec<[f64; 4]>,
 }
 
@@ -29,14 +29,14 @@ impl BlockCsr {
         self.column[range.clone()].iter().map(|&c| c as usize).zip(&self.block[range])
     }
 
-    /// Largest eigenvalue bound and other dense checks want the full matrix; small models only.
+    /// The full matrix, for dense checks of small models.
     pub fn to_dense(&self) -> nalgebra::DMatrix<f64> {
         let n = 2 * self.nodes();
         let mut dense = nalgebra::DMatrix::zeros(n, n);
         for i in 0..self.nodes() {
             for (j, b) in self.row(i) {
                 for (k, value) in b.iter().enumerate() {
-                    dense[(2 * i + k / 2, 2 * j + k % 2)] = *value;
+                    dense[(2 * i + k % 2, 2 * j + k / 2)] = *value;
                 }
             }
         }

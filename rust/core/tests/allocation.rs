@@ -1,0 +1,79 @@
+//! The step does not allocate once the active set has been as large before.
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::sync::Arc;
+
+use bipenalty::model::Model;
+use bipenalty::penalty::{Damping, Mass};
+use bipenalty::step::step;
+use common::{blocks, method, start};
+
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: hands every request to the system allocator unchanged; it only counts.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.with(|c| c.set(c.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        COUNT.with(|c| c.set(c.get() + 1));
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = COUNT.with(Cell::get);
+    work();
+    COUNT.with(Cell::get) - before
+}
+
+#[test]
+fn a_repeated_collision_allocates_nothing() {
+    for (mass, damping) in [
+        (Mass::None, Damping::None),
+        (Mass::None, Damping::Factor(1e-3)),
+        (Mass::RatioFromStep(0.9), Damping::None),
+        (Mass::RatioFromStep(0.9), Damping::Ratio(1.0)),
+    ] {
+        for passes in [1, 2] {
+            let model = Arc::new(Model::new(blocks(true, passes)).unwrap());
+            // At p_s = 30 rows open and close all the time: many patterns, among them new ones.
+            let mut run = start(&model, method(30.0, mass, damping), 0, [0.3, -2.0], 0.5);
+            let initial = run.state.clone();
+            let mut rows = 0;
+            let mut collide = |n: usize| {
+                allocations(|| {
+                    for _ in 0..n {
+                        step(&model, &run.settings, &mut run.state, &mut run.work).unwrap();
+                        rows = rows.max(run.work.rows.len());
+                    }
+                })
+            };
+            assert!(collide(800) > 0, "the first collision makes room");
+            run.state = initial;
+            let again = allocations(|| {
+                for _ in 0..800 {
+                    step(&model, &run.settings, &mut run.state, &mut run.work).unwrap();
+                }
+            });
+            assert!(rows >= 5 && run.work.search.count > 2, "{rows} rows, {} searches", run.work.search.count);
+            assert_eq!(again, 0, "{mass:?} {damping:?}, {passes} passes");
+        }
+    }
+}
