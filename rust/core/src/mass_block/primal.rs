@@ -122,10 +122,10 @@ impl Primal {
             scatter = self.pattern.add(row, p.inertia(dt), scatter, &mut self.values);
             let push = p.alpha_s * row.gap + p.alpha_d * row.along(v);
             for (node, g) in row.entries() {
-                for axis in 0..2 {
+                for (axis, g) in g.into_iter().enumerate() {
                     let local = self.pattern.local(node, axis);
                     if local != NONE {
-                        self.solution[local as usize] -= g[axis] * push;
+                        self.solution[local as usize] -= g * push;
                     }
                 }
             }

@@ -40,52 +40,60 @@ pub(super) struct Advance<'a, const L: usize> {
 }
 
 impl<const L: usize> Advance<'_, L> {
-    /// The loop itself, compiled once for each instruction set.
+    /// The loop itself, compiled once for each instruction set, and without loads where the scene has none.
     #[inline(always)]
     pub(super) fn run<M: Madd>(self) {
-        let (p, first) = (self.pass, self.range.start);
-        let rows = &p.stiffness.row_start[first..=self.range.end];
+        match self.pass.load {
+            None => self.sweep::<M>(|_, v, _| v),
+            Some(load) => self.sweep::<M>(|node, v, dt_w| {
+                let f = load[node];
+                std::array::from_fn(|axis| {
+                    std::array::from_fn(|lane| M::madd(dt_w[axis][lane], f[axis], v[axis][lane]))
+                })
+            }),
+        }
+    }
+
+    /// `loaded` adds dt M^-1 f to a node's velocity.
+    #[inline(always)]
+    fn sweep<M: Madd>(self, loaded: impl Fn(usize, [[f64; L]; 2], [[f64; L]; 2]) -> [[f64; L]; 2]) {
+        let Pass { stiffness, dt, elastic_dt, .. } = *self.pass;
+        let (nodes, u) = (self.range.clone(), self.pass.displacement.as_chunks::<2>().0);
+        let starts = stiffness.row_start[nodes.start..=nodes.end].array_windows::<2>();
+        let own = u[nodes.clone()].iter().zip(&self.pass.inverse_mass[nodes.clone()]);
         let out = self.velocity.as_chunks_mut::<2>().0.iter_mut().zip(self.next.as_chunks_mut::<2>().0);
-        for (i, (window, (v, next))) in rows.array_windows::<2>().zip(out).enumerate() {
-            let (node, blocks) = (first + i, window[0] as usize..window[1] as usize);
-            let [fx, fy] = product_row::<L, M>(p, blocks);
-            let [wx, wy] = p.inverse_mass[node];
-            let [lx, ly] = p.load.map_or([0.0; 2], |load| load[node]);
-            for lane in 0..L {
-                let (dt, elastic) = (p.dt[lane], p.elastic_dt[lane]);
-                let mut vx = M::madd(-elastic * wx, fx[lane], v[0][lane]);
-                let mut vy = M::madd(-elastic * wy, fy[lane], v[1][lane]);
-                if p.load.is_some() {
-                    vx = M::madd(dt * wx, lx, vx);
-                    vy = M::madd(dt * wy, ly, vy);
+        for (node, (([start, end], (x, w)), (v, next))) in nodes.zip(starts.zip(own).zip(out)) {
+            let blocks = *start as usize..*end as usize;
+            let force = product::<L, M>(&stiffness.block[blocks.clone()], &stiffness.column[blocks], u);
+            let mut new = *v;
+            for axis in 0..2 {
+                for lane in 0..L {
+                    new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
                 }
-                v[0][lane] = vx;
-                v[1][lane] = vy;
-                next[0][lane] = M::madd(dt, vx, p.displacement[2 * node][lane]);
-                next[1][lane] = M::madd(dt, vy, p.displacement[2 * node + 1][lane]);
             }
+            new = loaded(node, new, w.map(|w| dt.map(|dt| dt * w)));
+            for axis in 0..2 {
+                for lane in 0..L {
+                    next[axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);
+                }
+            }
+            *v = new;
         }
     }
 }
 
 /// One block row times u: four sums, one a block entry, so that the order is the same for 1, 8 and 16 lanes.
 #[inline(always)]
-fn product_row<const L: usize, M: Madd>(p: &Pass<L>, blocks: std::ops::Range<usize>) -> [[f64; L]; 2] {
+fn product<const L: usize, M: Madd>(blocks: &[[f64; 4]], columns: &[u32], u: &[[[f64; L]; 2]]) -> [[f64; L]; 2] {
     let mut sum = [[0.0; L]; 4];
-    let u = p.displacement.as_chunks::<2>().0;
-    for (k, &column) in p.stiffness.block[blocks.clone()].iter().zip(&p.stiffness.column[blocks]) {
-        let [ux, uy] = &u[column as usize];
-        for lane in 0..L {
-            sum[0][lane] = M::madd(k[0], ux[lane], sum[0][lane]);
-            sum[1][lane] = M::madd(k[1], ux[lane], sum[1][lane]);
-            sum[2][lane] = M::madd(k[2], uy[lane], sum[2][lane]);
-            sum[3][lane] = M::madd(k[3], uy[lane], sum[3][lane]);
+    for (k, &column) in blocks.iter().zip(columns) {
+        let [ux, uy] = u[column as usize];
+        let factor = [ux, ux, uy, uy];
+        for entry in 0..4 {
+            for lane in 0..L {
+                sum[entry][lane] = M::madd(k[entry], factor[entry][lane], sum[entry][lane]);
+            }
         }
     }
-    let mut product = [[0.0; L]; 2];
-    for lane in 0..L {
-        product[0][lane] = sum[0][lane] + sum[2][lane];
-        product[1][lane] = sum[1][lane] + sum[3][lane];
-    }
-    product
+    std::array::from_fn(|axis| std::array::from_fn(|lane| sum[axis][lane] + sum[axis + 2][lane]))
 }
