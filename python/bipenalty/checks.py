@@ -32,6 +32,22 @@ def text(owner: str, name: str, value: Any) -> str:
     return str(value)
 
 
+def whole(owner: str, name: str, value: Any, least: int) -> int:
+    """`value` as an integer that is not below `least`."""
+    integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    within(owner, name, repr(value), integer and value >= least, f"a whole number >= {least}", "correct it")
+    return int(value)
+
+
+def sequence(owner: str, name: str, value: Any) -> tuple[Any, ...]:
+    """`value` as a tuple; a lone object is not taken for a list of one."""
+    try:
+        return tuple(value)
+    except TypeError:
+        what = type(value).__name__
+        raise InputError(f"{owner}: {name} = {what}, must be a list; put it in brackets") from None
+
+
 def pair(owner: str, name: str, value: Any) -> Pair:
     """`value` as two finite floats."""
     try:

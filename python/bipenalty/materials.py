@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bipenalty import checks
+from bipenalty import _core, checks
 
 
 @dataclass(frozen=True)
@@ -34,14 +34,7 @@ class LinearElastic:
     plane: str = "strain"
 
     def __post_init__(self) -> None:
-        owner = "LinearElastic"
-        for name, unit in (("young", "N/m^2"), ("density", "kg/m^3")):
-            value = checks.number(owner, name, getattr(self, name))
-            checks.within(owner, name, value, 0 < value < float("inf"), "> 0 and finite", f"give it in {unit}")
-            object.__setattr__(self, name, value)
-        nu = checks.number(owner, "poisson", self.poisson)
-        checks.within(owner, "poisson", nu, -1 < nu < 0.5, "in (-1, 0.5)",
-                      "an incompressible material (0.5) has no finite wave speed: use 0.499 at most")
-        object.__setattr__(self, "poisson", nu)
-        checks.within(owner, "plane", repr(self.plane), self.plane in ("strain", "stress"),
-                      '"strain" or "stress"', "name one of the two")
+        for name in ("young", "poisson", "density"):
+            object.__setattr__(self, name, checks.number("LinearElastic", name, getattr(self, name)))
+        object.__setattr__(self, "plane", checks.text("LinearElastic", "plane", self.plane))
+        _core.check_elastic("LinearElastic", self)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from bipenalty import checks
+from bipenalty import _core, checks
 
 
 @runtime_checkable
@@ -26,10 +26,14 @@ class Method(Protocol):
     def label(self) -> str: ...
 
 
-def _not_negative(owner: str, name: str, value: object, remedy: str) -> float:
-    number = checks.number(owner, name, value)
-    checks.within(owner, name, number, 0 <= number < float("inf"), ">= 0 and finite", remedy)
-    return number
+def _settle(method: Method, *optional: str) -> None:
+    """Make every parameter a float and let the core check its bounds."""
+    owner = type(method).__name__
+    object.__setattr__(method, "ps", checks.number(owner, "ps", method.ps))
+    for name in optional:
+        if getattr(method, name) is not None:
+            object.__setattr__(method, name, checks.number(owner, name, getattr(method, name)))
+    _core.check_method(owner, method)
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,7 @@ class Stiffness:
     Parameters
     ----------
     ps : stiffness penalty factor alpha_s / (E_max 1 m), -, >= 0; E_max is the stiffer body of the pair.
-    D : damping penalty factor alpha_d / alpha_s, s, >= 0.
+    D : damping penalty factor alpha_d / alpha_s, s, >= 0; none unless given.
 
     It lowers the critical time step: omega^2 <= omega_0^2 + alpha_s lambda_max(G M^-1 G') (Belytschko and
     Neal 1991).
@@ -54,10 +58,7 @@ class Stiffness:
     D: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "ps", _not_negative("Stiffness", "ps", self.ps, "try 1"))
-        if self.D is not None:
-            remedy = "D = alpha_d / alpha_s in s; leave it out for no damping"
-            object.__setattr__(self, "D", _not_negative("Stiffness", "D", self.D, remedy))
+        _settle(self, "D")
 
     @property
     def R(self) -> float | None:
@@ -107,20 +108,12 @@ class Bipenalty:
     zeta: float | None = None
 
     def __post_init__(self) -> None:
-        owner = "Bipenalty"
-        object.__setattr__(self, "ps", _not_negative(owner, "ps", self.ps, "try 1"))
-        for name, remedy in (("R", "leave it out to take it from dt"), ("R_safety", "0.9 keeps dt within its limit")):
-            if name == "R" and self.R is None:
-                continue
-            value = checks.number(owner, name, getattr(self, name))
-            checks.within(owner, name, value, 0 < value < float("inf"), "> 0 and finite", remedy)
-            object.__setattr__(self, name, value)
-        checks.within(owner, "D and zeta", (self.D, self.zeta), self.D is None or self.zeta is None,
-                      "given one at a time", "zeta = D sqrt(R) / 2: leave one out")
-        for name in ("D", "zeta"):
-            if getattr(self, name) is not None:
-                remedy = "leave it out for no damping"
-                object.__setattr__(self, name, _not_negative(owner, name, getattr(self, name), remedy))
+        given = self.D is None or self.zeta is None
+        checks.within("Bipenalty", "D and zeta", (self.D, self.zeta), given, "given one at a time",
+                      "zeta = D sqrt(R) / 2: leave one out")
+        checks.within("Bipenalty", "R_safety", self.R_safety, self.R is not None or self.R_safety is not None,
+                      "given unless R is", "0.9 keeps dt within its limit; for no mass penalty use Stiffness")
+        _settle(self, "R", "R_safety", "D", "zeta")
 
     @property
     def label(self) -> str:

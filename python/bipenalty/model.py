@@ -132,9 +132,7 @@ class Model:
         InputError : n is not a whole number >= 0.
         RunError : the state has diverged; the message says why.
         """
-        ok = isinstance(n, (int, np.integer)) and n >= 0
-        checks.within("step", "n", repr(n), ok, "a whole number >= 0", "give the number of steps")
-        self._run.advance(int(n), False)
+        self._run.advance(checks.whole("step", "n", n, 0), False)
         if self._run.outcome != "running":
             raise RunError(f"{self._run.outcome}: {self._run.reason}", self.result())
 
@@ -164,13 +162,10 @@ class Model:
         Result, whatever the outcome: `result.outcome` and `result.reason` say how it ended.
         """
         steps = self._steps_to(t_end)
-        for name, value in (("every", every), ("energy_every", energy_every)):
-            ok = isinstance(value, (int, np.integer)) and value >= 1
-            checks.within("run", name, repr(value), ok, "a whole number >= 1", "give a number of steps")
+        strides = checks.whole("run", "every", every, 1), checks.whole("run", "energy_every", energy_every, 1)
         kept = sorted({self._nearest_step(t, t_end, steps) for t in snapshots})
-        limit = math.inf if displacement_limit is None else checks.number("run", "displacement_limit",
-                                                                          displacement_limit)
-        self._run.configure(every, energy_every, kept, limit, steps)
+        limit = math.inf if displacement_limit is None else displacement_limit
+        self._run.configure(*strides, kept, checks.number("run", "displacement_limit", limit), steps)
         interrupted = self._advance(steps, show_progress)
         return self.result(interrupted=interrupted)
 

@@ -57,10 +57,7 @@ class Body:
         start = (0.0, 0.0) if self.displacement is None else self.displacement
         object.__setattr__(self, "displacement", checks.nodal(owner, "displacement", start, nodes))
         object.__setattr__(self, "body_force", checks.pair(owner, "body_force", self.body_force))
-        thickness = checks.number(owner, "thickness", self.thickness)
-        checks.within(owner, "thickness", thickness, 0 < thickness < float("inf"), "> 0 and finite",
-                      "give it in m; 1 for a plane problem per metre of depth")
-        object.__setattr__(self, "thickness", thickness)
+        object.__setattr__(self, "thickness", checks.number(owner, "thickness", self.thickness))
 
 
 @dataclass(frozen=True)
@@ -85,9 +82,8 @@ class Contact:
         owner = f'contact "{self.secondary}" on "{self.primary}"'
         checks.within(owner, "passes", self.passes, self.passes in (1, 2), "1 or 2", "1 is the usual choice")
         if self.overlap_tolerance is not None:
-            value = checks.number(owner, "overlap_tolerance", self.overlap_tolerance)
-            checks.within(owner, "overlap_tolerance", value, 0 <= value < float("inf"), ">= 0 and finite",
-                          "leave it out for the default")
+            tolerance = checks.number(owner, "overlap_tolerance", self.overlap_tolerance)
+            object.__setattr__(self, "overlap_tolerance", tolerance)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,9 +121,7 @@ class HalfPlane:
     def __post_init__(self) -> None:
         owner = f'obstacle "{checks.text("obstacle", "name", self.name)}"'
         object.__setattr__(self, "point", checks.pair(owner, "point", self.point))
-        normal = checks.pair(owner, "normal", self.normal)
-        checks.within(owner, "normal", normal, normal != (0.0, 0.0), "not zero", "point it at the bodies")
-        object.__setattr__(self, "normal", normal)
+        object.__setattr__(self, "normal", checks.pair(owner, "normal", self.normal))
 
 
 @dataclass(frozen=True)
@@ -147,7 +141,8 @@ class Polyline:
 
     def __post_init__(self) -> None:
         owner = f'obstacle "{checks.text("obstacle", "name", self.name)}"'
-        points = tuple(checks.pair(owner, f"point {i}", p) for i, p in enumerate(self.points))
+        given = checks.sequence(owner, "points", self.points)
+        points = tuple(checks.pair(owner, f"point {i}", p) for i, p in enumerate(given))
         object.__setattr__(self, "points", points)
 
 
@@ -173,11 +168,13 @@ class Scene:
     obstacles: Sequence[HalfPlane | Polyline] = field(default=())
 
     def __post_init__(self) -> None:
-        kinds = {"bodies": Body, "contacts": Contact, "constraints": Support, "obstacles": (HalfPlane, Polyline)}
+        kinds: dict[str, tuple[type, ...]] = {
+            "bodies": (Body,), "contacts": (Contact,), "constraints": (Support,), "obstacles": (HalfPlane, Polyline),
+        }
         for name, kind in kinds.items():
-            items = tuple(getattr(self, name))
+            items = checks.sequence("scene", name, getattr(self, name))
             for i, item in enumerate(items):
-                expected = kind.__name__ if isinstance(kind, type) else "HalfPlane or Polyline"
+                expected = " or ".join(k.__name__ for k in kind)
                 checks.within("scene", f"{name}[{i}]", type(item).__name__, isinstance(item, kind),
                               f"a {expected}", "check the order of the arguments")
             object.__setattr__(self, name, items)

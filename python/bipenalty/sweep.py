@@ -107,7 +107,7 @@ def _dataset(
     histories: bool,
     attributes: dict[str, Any],
 ) -> xr.Dataset:
-    lost = {name: math.nan for name in SUMMARY} | {"outcome": "lost", "reason": "its thread died", "planned_steps": 0}
+    lost = dict.fromkeys(SUMMARY, math.nan) | {"outcome": "lost", "reason": "its thread died", "planned_steps": 0}
     runs = [lost if s is None else s for s in seen]
     ended = [_outcome(run) for run in runs]
     labels = [method_attributes(m, _ratio(m, dt)) for m in methods]

@@ -39,7 +39,7 @@ impl Material {
         Matrix3::new(lame + 2.0 * shear, lame, 0.0, lame, lame + 2.0 * shear, 0.0, 0.0, 0.0, shear)
     }
 
-    /// Checks the constants; `object` is the body's name for the message.
+    /// Checks the constants; `object` is what messages call the owner.
     ///
     /// # Errors
     /// Young's modulus or density not positive and finite, Poisson's ratio outside (-1, 0.5).

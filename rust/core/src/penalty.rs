@@ -40,12 +40,11 @@ pub struct Method {
 }
 
 impl Method {
-    /// Checks the parameters.
+    /// Checks the parameters; `object` is what messages call the method.
     ///
     /// # Errors
     /// p_s, D or zeta negative or not finite, R or its safety factor not positive and finite, zeta without mass.
-    pub fn check(&self) -> Result<()> {
-        let object = "method";
+    pub fn check(&self, object: &str) -> Result<()> {
         let not_negative = |quantity: &str, value: f64, remedy: &str| {
             if value >= 0.0 && value.is_finite() {
                 Ok(())

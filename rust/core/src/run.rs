@@ -59,7 +59,7 @@ impl Run {
     /// # Errors
     /// A method or time step out of bounds, an initial state that does not fit, bodies that overlap.
     pub fn new(model: Arc<Model>, spec: &RunSpec) -> Result<Self> {
-        spec.method.check()?;
+        spec.method.check("method")?;
         check_step(&model, spec)?;
         check_displacement_limit(spec.displacement_limit)?;
         let state = State::new(&model, &spec.velocity, &spec.displacement, spec.dt)?;

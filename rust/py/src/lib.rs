@@ -2,6 +2,7 @@
 
 mod arrays;
 mod batch;
+mod checks;
 mod errors;
 mod mesh;
 mod model;
@@ -15,6 +16,8 @@ use pyo3::prelude::*;
 mod _core {
     #[pymodule_export]
     use super::batch::Batch;
+    #[pymodule_export]
+    use super::checks::{check_elastic, check_method};
     #[pymodule_export]
     use super::mesh::check_mesh;
     #[pymodule_export]

@@ -18,11 +18,26 @@ pub struct Mesh<'py> {
 }
 
 #[derive(FromPyObject)]
-struct Elastic {
+pub struct Elastic {
     young: f64,
     poisson: f64,
     density: f64,
     plane: String,
+}
+
+impl Elastic {
+    /// The material as the core describes it; `object` is what messages call its owner.
+    pub fn lower(&self, object: &str) -> Result<Material, Error> {
+        let plane = match self.plane.as_str() {
+            "strain" => Plane::Strain,
+            "stress" => Plane::Stress,
+            other => {
+                let (value, bound) = (format!("\"{other}\""), "\"strain\" or \"stress\"");
+                return Err(Error::bound(object, "plane", value, bound, "name one of the two"));
+            }
+        };
+        Ok(Material { young: self.young, poisson: self.poisson, density: self.density, plane })
+    }
 }
 
 #[derive(FromPyObject)]
@@ -37,21 +52,11 @@ pub struct Body<'py> {
 impl Body<'_> {
     /// The body as the core describes it.
     pub fn lower(&self, py: Python<'_>) -> PyResult<BodySpec> {
-        let m = &self.material;
-        let plane = match m.plane.as_str() {
-            "strain" => Plane::Strain,
-            "stress" => Plane::Stress,
-            other => {
-                let object = format!("body \"{}\"", self.name);
-                let value = format!("\"{other}\"");
-                let error = Error::bound(&object, "plane", value, "\"strain\" or \"stress\"", "name one of the two");
-                return Err(to_python(py, &error));
-            }
-        };
+        let object = format!("body \"{}\"", self.name);
         Ok(BodySpec {
             name: self.name.clone(),
             mesh: lowered(py, &self.mesh.points, &self.mesh.triangles, &self.mesh.quads)?,
-            material: Material { young: m.young, poisson: m.poisson, density: m.density, plane },
+            material: self.material.lower(&object).map_err(|e| to_python(py, &e))?,
             thickness: self.thickness,
             body_force: self.body_force.into(),
         })

@@ -1,0 +1,100 @@
+"""Types of the compiled core; the Python layer is what users import."""
+
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "Batch",
+    "Model",
+    "Run",
+    "__version__",
+    "check_elastic",
+    "check_mesh",
+    "check_method",
+    "instruction_set",
+]
+__version__: str
+instruction_set: str
+
+def check_mesh(
+    points_: NDArray[np.float64], triangles: NDArray[np.int64], quads: NDArray[np.int64], /
+) -> tuple[NDArray[np.int64], NDArray[np.int64], bool, list[NDArray[np.int64]]]: ...
+
+def check_elastic(object: str, material: Any) -> None: ...
+def check_method(object: str, method: Any) -> None: ...
+@final
+class Model:
+    def __new__(
+        cls,
+        bodies: list[Any],
+        contacts: list[Any],
+        supports: list[tuple[str, list[int], tuple[bool, bool]]],
+        obstacles: list[Any],
+    ) -> Model: ...
+    @property
+    def critical_dt(self) -> float: ...
+    @property
+    def points(self) -> NDArray[np.float64]: ...
+    @property
+    def mass(self) -> NDArray[np.float64]: ...
+    @property
+    def body_nodes(self) -> list[tuple[int, int]]: ...
+    @property
+    def contacts(self) -> list[str]: ...
+
+@final
+class Run:
+    def __new__(
+        cls,
+        model: Model,
+        method: Any,
+        dt: float,
+        allow_unstable: bool,
+        velocity: NDArray[np.float64],
+        displacement: NDArray[np.float64],
+    ) -> Run: ...
+    def configure(
+        self, every: int, energy_every: int, snapshots: list[int], displacement_limit: float, steps: int
+    ) -> None: ...
+    def clear_history(self) -> None: ...
+    def advance(self, steps: int, last: bool) -> None: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def outcome(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def rows(self) -> list[tuple[float, float]]: ...
+    @property
+    def searches(self) -> int: ...
+    @property
+    def analyses(self) -> int: ...
+    @property
+    def displacement(self) -> NDArray[np.float64]: ...
+    @property
+    def velocity(self) -> NDArray[np.float64]: ...
+    def observations(self) -> dict[str, Any]: ...
+
+@final
+class Batch:
+    def __new__(
+        cls,
+        model: Model,
+        runs: list[tuple[Any, float, int]],
+        allow_unstable: bool,
+        velocity: NDArray[np.float64],
+        displacement: NDArray[np.float64],
+        displacement_limit: float | None,
+        every: int,
+        energy_every: int,
+    ) -> Batch: ...
+    def advance(self, threads: int, seconds: float) -> int: ...
+    @property
+    def finished(self) -> int: ...
+    def __len__(self) -> int: ...
+    def observations(self, index: int) -> dict[str, Any] | None: ...

@@ -1,0 +1,12 @@
+"""Figures drawn from results only: nothing is computed here that a dataset does not hold.
+
+Each function returns a `matplotlib.figure.Figure` made without pyplot, so that nothing global is touched and no
+window opens: save it with `figure.savefig("name.png", dpi=200)`. At dpi = 100 the figures are 900 pixels wide. To
+draw into axes or a figure of your own, hand them over (`ax=`, `figure=`).
+"""
+
+from bipenalty.plot.deformation_figure import deformation
+from bipenalty.plot.force_figure import force
+from bipenalty.plot.penetration_figure import penetration
+
+__all__ = ["deformation", "force", "penetration"]
