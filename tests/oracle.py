@@ -199,13 +199,12 @@ def surface_rows(x: Array, secondary: Surface, primary: Surface, reach: float = 
     rows = []
     for i, node in enumerate(secondary.nodes[:, 0]):
         p, outward = x[node], normals[i] + normals[secondary.before[i]]
-        # Outside a closed surface there is no contact, whatever the nearest facing segment says. Neither for
-        # a node that runs along the side of the primary body (corners of aligned bars) nor for a segment at
-        # right angles to the node's normal may round-off decide: hence the two tolerances.
-        if primary.closed:
-            tolerance = 1e-9 * np.ptp(a, axis=0).max()
-            if signed_gap(p, primary, a, b, n, use=np.full(len(n), True))[0] > tolerance:
-                continue
+        # The nearest of all segments tells inside from outside, whatever the nearest facing one says. Neither
+        # for a node that runs along the side of the primary body (corners of aligned bars) nor for a segment
+        # at right angles to the node's normal may round-off decide: hence the two tolerances.
+        tolerance = 1e-9 * np.ptp(np.vstack([a, b]), axis=0).max()
+        if signed_gap(p, primary, a, b, n, use=np.full(len(n), True))[0] > tolerance:
+            continue
         gap, direction, k, xi = signed_gap(p, primary, a, b, n, use=n @ outward < -1e-6)
         if -reach <= gap < 0:
             gradient = np.zeros(x.shape)
@@ -240,7 +239,9 @@ def simulate(bodies: Sequence[Body], contacts: Sequence[Contact], dt: float, n_s
     Entry n of each history, n = 0..n_steps, is at t = n dt: u, v and v_half (the velocity at (n - 1/2) dt),
     (n_steps + 1, N, 2); contact_force (N, sum over rows), penetration (m), active (rows), kinetic and
     strain (J); force_on (n_steps + 1, C, 2), N on each contact's secondary body; lambdas, a list of dicts
-    (contact, node) -> row force. Besides: mass (N,) kg and omega_element, rad/s.
+    (contact, node) -> row force; penalty (J, A_s g^2 / 2), mass_penalty (J, A_m (G v)^2 / 2), load_potential
+    (J, -f u) and damping_loss (J, taken out up to and including this step). Besides: mass (N,) kg and
+    omega_element, rad/s.
     """
     x0 = np.vstack([body.points for body in bodies])
     size, sizes = len(x0), [len(body.points) for body in bodies]
@@ -255,6 +256,7 @@ def simulate(bodies: Sequence[Body], contacts: Sequence[Contact], dt: float, n_s
     v = free * np.vstack([body.velocity for body in bodies]).ravel()
     v = v - dt / 2 * free * (f - k @ u) / m  # v_{-1/2}
     histories: dict[str, list[Any]] = {}
+    lost = 0.0
     for _ in range(n_steps + 1):
         x = x0 + u.reshape(size, 2)
         rows = [(c, *row) for c, contact in enumerate(contacts) for row in contact_rows(x, contact, surfaces)]
@@ -276,7 +278,10 @@ def simulate(bodies: Sequence[Body], contacts: Sequence[Contact], dt: float, n_s
         entry = {"u": u.reshape(size, 2), "v": v_n.reshape(size, 2), "v_half": v.reshape(size, 2)}
         entry |= {"penetration": max(0.0, -min(g, default=0.0)), "contact_force": row_force.sum()}
         entry |= {"active": len(rows), "force_on": force_on, "lambdas": lambdas}
-        entry |= {"kinetic": 0.5 * v_n @ (m * v_n), "strain": 0.5 * u @ k @ u}
+        rate = gradient @ v_n
+        lost += dt * a_d @ rate**2
+        entry |= {"kinetic": 0.5 * v_n @ (m * v_n), "strain": 0.5 * u @ k @ u, "load_potential": -f @ u}
+        entry |= {"penalty": 0.5 * a_s @ g**2, "mass_penalty": 0.5 * a_m @ rate**2, "damping_loss": lost}
         for name, value in entry.items():
             histories.setdefault(name, []).append(value)
         v = v + dt * a

@@ -13,19 +13,39 @@ A `Scene` says what there is, a `Model` advances it, a `Result` holds what was s
 """
 
 from bipenalty import io, mesh
+from bipenalty.body import Body
+from bipenalty.constraints import Support
+from bipenalty.contact import Contact
 from bipenalty.errors import BipenaltyError, InputError, RunError
 from bipenalty.materials import LinearElastic
 from bipenalty.mesh import Mesh
 from bipenalty.methods import Bipenalty, Stiffness
 from bipenalty.model import Model
+from bipenalty.obstacles import HalfPlane, Polyline
 from bipenalty.result import Result
 from bipenalty.result_dataset import package_version
-from bipenalty.scene import Body, Contact, HalfPlane, Polyline, Scene, Support
+from bipenalty.scene import Scene
 from bipenalty.sweep import sweep
 
 __version__ = package_version()
 
 __all__ = [
-    "BipenaltyError", "Bipenalty", "Body", "Contact", "HalfPlane", "InputError", "LinearElastic", "Mesh", "Model",
-    "Polyline", "Result", "RunError", "Scene", "Stiffness", "Support", "io", "mesh", "sweep",
+    "BipenaltyError",
+    "Bipenalty",
+    "Body",
+    "Contact",
+    "HalfPlane",
+    "InputError",
+    "LinearElastic",
+    "Mesh",
+    "Model",
+    "Polyline",
+    "Result",
+    "RunError",
+    "Scene",
+    "Stiffness",
+    "Support",
+    "io",
+    "mesh",
+    "sweep",
 ]

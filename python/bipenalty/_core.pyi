@@ -21,9 +21,9 @@ instruction_set: str
 def check_mesh(
     points_: NDArray[np.float64], triangles: NDArray[np.int64], quads: NDArray[np.int64], /
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], bool, list[NDArray[np.int64]]]: ...
-
 def check_elastic(object: str, material: Any) -> None: ...
 def check_method(object: str, method: Any) -> None: ...
+
 @final
 class Model:
     def __new__(

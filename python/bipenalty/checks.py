@@ -64,8 +64,14 @@ def nodal(owner: str, name: str, value: Any, nodes: int) -> np.ndarray[Any, np.d
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{owner}: {name} is not numeric; give (x, y) or an ({nodes}, 2) array") from None
-    within(owner, f"shape of {name}", array.shape, array.shape in ((2,), (nodes, 2)), f"(2,) or ({nodes}, 2)",
-           "give one pair, or one row a node")
+    within(
+        owner,
+        f"shape of {name}",
+        array.shape,
+        array.shape in ((2,), (nodes, 2)),
+        f"(2,) or ({nodes}, 2)",
+        "give one pair, or one row a node",
+    )
     bad = ~np.isfinite(array)
     within(owner, name, array[bad][:1], not bad.any(), "finite", "mend the values")
     return np.ascontiguousarray(np.broadcast_to(array, (nodes, 2)))

@@ -94,13 +94,9 @@ def write_paraview(dataset: xr.Dataset, folder: str | os.PathLike[str], name: st
     missing = [variable for variable in _SNAPSHOT_VARIABLES if variable not in dataset]
     if missing or dataset.sizes["snapshot_time"] == 0:
         lacks = f"has no {', '.join(missing)}" if missing else "has 0 snapshots"
-        raise InputError(
-            f"write_paraview: the dataset {lacks}; give it one run made with run(t_end, snapshots=...)"
-        )
+        raise InputError(f"write_paraview: the dataset {lacks}; give it one run made with run(t_end, snapshots=...)")
     if not name or Path(name).name != name:
-        raise InputError(
-            f"write_paraview: name = {name!r}, must be a plain file name; the place goes into folder"
-        )
+        raise InputError(f"write_paraview: name = {name!r}, must be a plain file name; the place goes into folder")
     target = Path(folder)
     target.mkdir(parents=True, exist_ok=True)
 

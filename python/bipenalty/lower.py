@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from bipenalty import _core, checks
+from bipenalty.constraints import Support
 from bipenalty.errors import InputError
-from bipenalty.scene import Scene, Support
+from bipenalty.scene import Scene
 
 
 def lower(scene: Scene) -> _core.Model:
@@ -33,8 +34,14 @@ def _nodes(scene: Scene, support: Support) -> list[int]:
         return [int(n) for n in body.mesh.nodes_of(support.on)]
     nodes: Any = np.asarray(support.on)
     ok = nodes.ndim == 1 and np.issubdtype(nodes.dtype, np.integer)
-    checks.within(owner, "on", f"{nodes.dtype} array of shape {nodes.shape}", ok, "a boundary name or node numbers",
-                  f"boundaries of the mesh: {sorted(body.mesh.boundaries)}")
+    checks.within(
+        owner,
+        "on",
+        f"{nodes.dtype} array of shape {nodes.shape}",
+        ok,
+        "a boundary name or node numbers",
+        f"boundaries of the mesh: {sorted(body.mesh.boundaries)}",
+    )
     low = int(nodes.min(initial=0))
     checks.within(owner, "node", low, low >= 0, ">= 0", "number nodes from 0")
     return [int(n) for n in nodes]

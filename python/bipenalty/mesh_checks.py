@@ -71,9 +71,7 @@ def count(who: str, what: str, value: Any, multiple_of: int = 1) -> int:
         usable = _is_number(value) and math.isfinite(value)
         near = max(multiple_of, multiple_of * round(value / multiple_of)) if usable else multiple_of
         kind = "integer >= 1" if multiple_of == 1 else f"positive multiple of {multiple_of}"
-        raise InputError(
-            f"{who}: {what} = {value!r}, must be a{'n' * (multiple_of == 1)} {kind}; {near} would do"
-        )
+        raise InputError(f"{who}: {what} = {value!r}, must be a{'n' * (multiple_of == 1)} {kind}; {near} would do")
     return int(value)
 
 

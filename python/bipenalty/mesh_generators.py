@@ -59,9 +59,7 @@ def disc(
     middle = check.point("disc", "centre", centre)
 
     core, core_nodes = _core_grid(segments // 4)
-    around = np.concatenate(
-        [core_nodes[0, :-1], core_nodes[:-1, -1], core_nodes[-1, :0:-1], core_nodes[:0:-1, 0]]
-    )
+    around = np.concatenate([core_nodes[0, :-1], core_nodes[:-1, -1], core_nodes[-1, :0:-1], core_nodes[:0:-1, 0]])
     rings = max(1, round(segments / SEGMENTS_PER_RING))
     layers = _ring_points(core[around], rings)
     ring_nodes = len(core) + np.arange(rings * segments).reshape(rings, segments)

@@ -109,10 +109,22 @@ class Bipenalty:
 
     def __post_init__(self) -> None:
         given = self.D is None or self.zeta is None
-        checks.within("Bipenalty", "D and zeta", (self.D, self.zeta), given, "given one at a time",
-                      "zeta = D sqrt(R) / 2: leave one out")
-        checks.within("Bipenalty", "R_safety", self.R_safety, self.R is not None or self.R_safety is not None,
-                      "given unless R is", "0.9 keeps dt within its limit; for no mass penalty use Stiffness")
+        checks.within(
+            "Bipenalty",
+            "D and zeta",
+            (self.D, self.zeta),
+            given,
+            "given one at a time",
+            "zeta = D sqrt(R) / 2: leave one out",
+        )
+        checks.within(
+            "Bipenalty",
+            "R_safety",
+            self.R_safety,
+            self.R is not None or self.R_safety is not None,
+            "given unless R is",
+            "0.9 keeps dt within its limit; for no mass penalty use Stiffness",
+        )
         _settle(self, "R", "R_safety", "D", "zeta")
 
     @property

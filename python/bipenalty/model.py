@@ -16,35 +16,12 @@ from bipenalty.methods import Bipenalty, Method
 from bipenalty.result import Result
 from bipenalty.result_dataset import run_dataset
 from bipenalty.scene import Scene
+from bipenalty.time_step import time_step
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
 #: Seconds that the core works before it lets the interpreter look at signals and the progress bar.
 SLICE = 0.05
-
-
-def time_step(critical_dt: float, dt: str | float, safety: float) -> float:
-    """The time step asked for: "element" is `safety` times the critical step of the elements.
-
-    Parameters
-    ----------
-    critical_dt : 2/omega_max of the elements, s (Irons and Fried 1971).
-    dt : "element", or a step in s (then `safety` is not used).
-    safety : -, in (0, 1].
-
-    Example
-    -------
-    >>> time_step(2e-4, "element", 0.5)
-    0.0001
-    """
-    if isinstance(dt, str):
-        checks.within("model", "dt", repr(dt), dt == "element", '"element" or a number of seconds', "correct it")
-        factor = checks.number("model", "safety", safety)
-        checks.within("model", "safety", factor, 0 < factor <= 1, "in (0, 1]", "0.5 leaves room for contact")
-        return factor * critical_dt
-    step = checks.number("model", "dt", dt)
-    checks.within("model", "dt", step, 0 < step < math.inf, "> 0 and finite", 'give seconds, or "element"')
-    return step
 
 
 class Model:
@@ -83,8 +60,14 @@ class Model:
     ) -> None:
         self.scene = scene
         self.method: Method = Bipenalty() if method is None else method
-        checks.within("model", "method", type(self.method).__name__, isinstance(self.method, Method),
-                      "a Stiffness or Bipenalty", "make one with Stiffness(ps) or Bipenalty(ps)")
+        checks.within(
+            "model",
+            "method",
+            type(self.method).__name__,
+            isinstance(self.method, Method),
+            "a Stiffness or Bipenalty",
+            "make one with Stiffness(ps) or Bipenalty(ps)",
+        )
         self._core = lower(scene)
         self.critical_dt: float = self._core.critical_dt
         self.dt = time_step(self.critical_dt, dt, safety)
@@ -121,7 +104,7 @@ class Model:
 
     @property
     def outcome(self) -> str:
-        """"running", or how the run has ended."""
+        """ "running", or how the run has ended."""
         return self._run.outcome
 
     def step(self, n: int = 1) -> None:
@@ -171,14 +154,26 @@ class Model:
 
     def _steps_to(self, t_end: float) -> int:
         end = checks.number("run", "t_end", t_end)
-        checks.within("run", "t_end", end, self.time < end < math.inf, f"finite and after now ({self.time:g} s)",
-                      "give a later time")
+        checks.within(
+            "run",
+            "t_end",
+            end,
+            self.time < end < math.inf,
+            f"finite and after now ({self.time:g} s)",
+            "give a later time",
+        )
         return max(1, math.ceil((end - self.time) / self.dt - 1e-9))
 
     def _nearest_step(self, t: float, t_end: float, steps: int) -> int:
         when = checks.number("run", "snapshot", t)
-        checks.within("run", "snapshot", when, self.time <= when <= t_end * (1 + 1e-9),
-                      f"between now ({self.time:g} s) and t_end ({t_end:g} s)", "choose times within the run")
+        checks.within(
+            "run",
+            "snapshot",
+            when,
+            self.time <= when <= t_end * (1 + 1e-9),
+            f"between now ({self.time:g} s) and t_end ({t_end:g} s)",
+            "choose times within the run",
+        )
         return min(round(when / self.dt), self.steps + steps - 1)
 
     def _advance(self, steps: int, show: bool | None) -> bool:

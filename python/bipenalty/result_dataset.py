@@ -92,8 +92,17 @@ def _mesh(model: Model) -> dict[str, Any]:
 
 
 def _attributes(model: Model, seen: dict[str, Any]) -> dict[str, Any]:
-    summary = ("outcome", "reason", "steps", "max_penetration", "max_displacement", "peak_force", "impulse",
-               "energy_ratio", "seconds")
+    summary = (
+        "outcome",
+        "reason",
+        "steps",
+        "max_penetration",
+        "max_displacement",
+        "peak_force",
+        "impulse",
+        "energy_ratio",
+        "seconds",
+    )
     steps = {"dt": model.dt, "critical_dt": model.critical_dt}
     about = {name: seen[name] for name in summary}
     return method_attributes(model.method, model.R) | steps | about | {"version": package_version()}

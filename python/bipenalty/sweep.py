@@ -13,9 +13,10 @@ import xarray as xr
 from bipenalty import _core, checks, progress
 from bipenalty.lower import lower
 from bipenalty.methods import Method
-from bipenalty.model import SLICE, time_step
+from bipenalty.model import SLICE
 from bipenalty.result_dataset import method_attributes, package_version
 from bipenalty.scene import Scene
+from bipenalty.time_step import time_step
 
 #: name: (unit, long name) of what every run of a sweep leaves behind.
 SUMMARY = {
@@ -70,8 +71,14 @@ def sweep(
     """
     methods = list(methods)
     for i, method in enumerate(methods):
-        checks.within("sweep", f"methods[{i}]", type(method).__name__, isinstance(method, Method),
-                      "a Stiffness or Bipenalty", "make one with Stiffness(ps) or Bipenalty(ps)")
+        checks.within(
+            "sweep",
+            f"methods[{i}]",
+            type(method).__name__,
+            isinstance(method, Method),
+            "a Stiffness or Bipenalty",
+            "make one with Stiffness(ps) or Bipenalty(ps)",
+        )
     checks.within("sweep", "number of methods", 0, len(methods) > 0, ">= 1", "give at least one method")
     end = checks.number("sweep", "t_end", t_end)
     checks.within("sweep", "t_end", end, 0 < end < math.inf, "> 0 and finite", "give the time to run to")
@@ -79,11 +86,25 @@ def sweep(
     step = time_step(core.critical_dt, dt, safety)
     n = max(1, math.ceil(end / step - 1e-9))
     limit = None if displacement_limit is None else checks.number("sweep", "displacement_limit", displacement_limit)
-    batch = _core.Batch(core, [(m, step, n) for m in methods], allow_unstable, scene.velocity, scene.displacement,
-                        limit, int(histories), 10)
+    batch = _core.Batch(
+        core,
+        [(m, step, n) for m in methods],
+        allow_unstable,
+        scene.velocity,
+        scene.displacement,
+        limit,
+        int(histories),
+        10,
+    )
     interrupted = _work(batch, len(methods) * n * scene.n_nodes, threads or os.cpu_count() or 1, show_progress)
-    attributes = {"dt": step, "critical_dt": core.critical_dt, "t_end": end, "version": package_version(),
-                  "displacement_limit": math.inf if limit is None else limit, "interrupted": int(interrupted)}
+    attributes = {
+        "dt": step,
+        "critical_dt": core.critical_dt,
+        "t_end": end,
+        "version": package_version(),
+        "displacement_limit": math.inf if limit is None else limit,
+        "interrupted": int(interrupted),
+    }
     return _dataset([batch.observations(i) for i in range(len(methods))], methods, step, n, histories, attributes)
 
 

@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Rectangle
 
 from bipenalty import checks
-from bipenalty.plot import style
-
-Window = tuple[float, float, float, float]
-FILL = ("#9CC9E8", "#F6C77D", "#A9D9C3", "#E3B7CF", "#D9D9D9")
-RIM = ("#00507D", "#8A4B00", "#00614A", "#7A3A5E", "#404040")
+from bipenalty.plot import mesh_drawing, style
 
 
 def deformation(
     result: Any,
     times: Sequence[float] | None = None,
-    zoom: Window | None = None,
+    zoom: mesh_drawing.Window | None = None,
     *,
     title: str | None = None,
     figure: Figure | SubFigure | None = None,
@@ -45,31 +40,37 @@ def deformation(
     """
     data = style.dataset(result)
     kept = data.sizes.get("snapshot_time", 0)
-    checks.within("plot.deformation", "number of snapshots", kept, kept > 0, ">= 1",
-                  "give their times to run(t_end, snapshots=...)")
+    checks.within(
+        "plot.deformation",
+        "number of snapshots",
+        kept,
+        kept > 0,
+        ">= 1",
+        "give their times to run(t_end, snapshots=...)",
+    )
     if times is not None:
         data = data.sel(snapshot_time=list(times), method="nearest")
     places = (data["points"] + data["displacement"]).transpose("snapshot_time", "node", "axis").values
-    body = data["body_of_node"].values
-    elements = [data[name].values for name in ("triangles", "quads") if data[name].size]
-    rims = [_boundary([e[body[e[:, 0]] == b] for e in elements]) for b in range(int(body.max()) + 1)]
-    window = zoom or _near(places, rims)
+    parts = _parts(data)
+    rims = [mesh_drawing.boundary(elements) for elements in parts]
+    window = zoom or mesh_drawing.contact_window(places, rims)
+    scene = mesh_drawing.box(places.reshape(-1, 2), 0.03)
     columns = min(3, len(places))
     rows = -(-len(places) // columns)
-    aspect = (window[3] - window[2]) / (window[1] - window[0])
-    drawn = style.own_figure(figure, *(size or (style.WIDTH, 0.5 + rows * (0.35 + style.WIDTH / columns * aspect))))
+    width, height = window[1] - window[0], window[3] - window[2]
+    drawn = style.own_figure(figure, *(size or (style.WIDTH, 0.6 + rows * (0.3 + 2.8 * height / width))))
     panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    for ax in panels.flat[len(places):]:
-        ax.set_visible(False)
-    scene = _box(places.reshape(-1, 2), 0.03)
-    for ax, place, time in zip(panels.flat, places, data["snapshot_time"].values, strict=False):
-        _bodies(ax, place, body, elements, rims, fine=True)
-        ax.set(xlim=window[:2], ylim=window[2:], aspect="equal", title=f"t = {time:.3f} s")
+    instants = data["snapshot_time"].values
+    decimals = max(0, 2 - math.floor(math.log10(instants.max()))) if instants.max() > 0 else 0
+    for ax, place, instant in zip(panels.flat, places, instants, strict=False):
+        mesh_drawing.bodies(ax, place, parts, rims, fine=True)
+        ax.set(xlim=window[:2], ylim=window[2:], aspect="equal", title=f"t = {instant:.{decimals}f} s")
         inset = ax.inset_axes((0.0, 0.0, 0.3, 0.42), xticks=[], yticks=[])
-        _bodies(inset, place, body, elements, rims, fine=False)
+        mesh_drawing.bodies(inset, place, parts, rims, fine=False)
         inset.set(xlim=scene[:2], ylim=scene[2:], aspect="equal")
-        corner = (window[0], window[2])
-        inset.add_patch(Rectangle(corner, window[1] - window[0], window[3] - window[2], fill=False, linewidth=1.2))
+        inset.add_patch(Rectangle((window[0], window[2]), width, height, fill=False, linewidth=1.2))
+    for ax in panels.flat[len(places) :]:
+        ax.set_visible(False)
     for ax in panels[-1]:
         ax.set_xlabel("x (m)")
     for ax in panels[:, 0]:
@@ -77,3 +78,13 @@ def deformation(
     if title:
         drawn.suptitle(title, x=0.01, ha="left")
     return style.whole(drawn)
+
+
+def _parts(data: xr.Dataset) -> list[list[mesh_drawing.Ints]]:
+    """Connectivity of the elements of each body."""
+    body = data["body_of_node"].values
+    kinds = [data[name].values.astype(np.int64) for name in ("triangles", "quads")]
+    return [
+        [corners[body[corners[:, 0]] == b] for corners in kinds if (body[corners[:, 0]] == b).any()]
+        for b in range(int(body.max()) + 1)
+    ]

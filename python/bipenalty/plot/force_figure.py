@@ -47,8 +47,9 @@ def force(
     InputError : a label or a factor that the sweep does not have, or a sweep without histories.
     """
     data = style.dataset(sweep)
-    checks.within("plot.force", "histories", "none", "contact_force" in data, "in the sweep",
-                  "run sweep(..., histories=True)")
+    checks.within(
+        "plot.force", "histories", "none", "contact_force" in data, "in the sweep", "run sweep(..., histories=True)"
+    )
     chosen = style.labels(data, methods)
     drawn = style.own_figure(figure, *(size or (style.WIDTH, 1.2 + 2.2 * len(chosen))))
     panels = drawn.subplots(len(chosen), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
@@ -69,8 +70,14 @@ def _panel(ax: Axes, runs: xr.Dataset, label: str, ps: Sequence[float]) -> None:
     colours = colormaps["cividis_r"](np.linspace(0.12, 1, len(ps)))
     for i, factor in enumerate(sorted(ps)):
         found = np.flatnonzero(np.isclose(known, factor, rtol=1e-6))
-        checks.within("plot.force", f"p_s of {label}", factor, len(found) > 0,
-                      f"one of {', '.join(f'{p:.4g}' for p in known)}", "choose among the sweep's factors")
+        checks.within(
+            "plot.force",
+            f"p_s of {label}",
+            factor,
+            len(found) > 0,
+            f"one of {', '.join(f'{p:.4g}' for p in known)}",
+            "choose among the sweep's factors",
+        )
         run = runs.isel(run=int(found[0]))
         failed = ", failed" if bool(run["failed"]) else ""
         name = f"$p_s$ = {factor:g}, peak {float(run['peak_force']):.3g} N/m{failed}"

@@ -93,9 +93,17 @@ def _strip(ax: Axes, failures: dict[str, Any], looks: dict[str, dict[str, Any]])
             height = np.log(end[1] / low) / np.log(high / low) * share
             ax.plot([end[0], ps[0]], [height, y], ":", color=colour, linewidth=1.2, transform=across)
         before = np.log(ps[0]) - left > right - np.log(ps[-1])
-        ax.annotate(f"{label}: {cause}", (ps[0] if before else ps[-1], y), xycoords=across,
-                    xytext=(-9 if before else 9, 0), textcoords="offset points", color=colour, fontsize=9,
-                    ha="right" if before else "left", va="center")
+        ax.annotate(
+            f"{label}: {cause}",
+            (ps[0] if before else ps[-1], y),
+            xycoords=across,
+            xytext=(-9 if before else 9, 0),
+            textcoords="offset points",
+            color=colour,
+            fontsize=9,
+            ha="right" if before else "left",
+            va="center",
+        )
 
 
 def _claim(data: xr.Dataset, chosen: list[str], failures: dict[str, Any]) -> str:

@@ -23,8 +23,14 @@ CAUSES = ("time step instability", "energy made by contact")
 def dataset(source: Any) -> xr.Dataset:
     """The dataset of a `Result`, or the dataset itself."""
     found = getattr(source, "dataset", source)
-    checks.within("plot", "what to draw", type(source).__name__, isinstance(found, xr.Dataset),
-                  "a Result or an xarray.Dataset", "give what run or sweep returned")
+    checks.within(
+        "plot",
+        "what to draw",
+        type(source).__name__,
+        isinstance(found, xr.Dataset),
+        "a Result or an xarray.Dataset",
+        "give what run or sweep returned",
+    )
     return found  # type: ignore[no-any-return]
 
 
@@ -32,8 +38,14 @@ def labels(sweep: xr.Dataset, methods: Sequence[str] | None) -> list[str]:
     """Labels of the methods to draw, in the order given or else in that of the sweep."""
     known = list(dict.fromkeys(map(str, sweep["method"].values)))
     for method in methods or ():
-        checks.within("plot", "method", repr(method), method in known, f"one of {', '.join(map(repr, known))}",
-                      "choose among the sweep's labels")
+        checks.within(
+            "plot",
+            "method",
+            repr(method),
+            method in known,
+            f"one of {', '.join(map(repr, known))}",
+            "choose among the sweep's labels",
+        )
     return list(methods) if methods is not None else known
 
 

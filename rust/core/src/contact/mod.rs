@@ -1,5 +1,6 @@
 //! Contact: candidate pairs from the broad phase, gaps from the narrow phase, rows for what penetrates.
 
+pub mod candidates;
 pub mod gap;
 pub mod overlap;
 pub mod pair;

@@ -1,7 +1,7 @@
 //! A contact pair: secondary nodes against a primary surface; the narrow phase and its rows.
 
+use super::candidates::{Candidate, Candidates};
 use super::gap::{Gap, Location, Projection, dot, from_to, gap_at_vertex, gap_inside, is_at_end, long_normal, project};
-use super::search::{Candidate, Candidates};
 use super::surface::{Surface, position};
 use crate::lane::Lane;
 use crate::row::{Penalties, Row};
