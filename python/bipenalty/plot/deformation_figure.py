@@ -58,17 +58,19 @@ def deformation(
     columns = min(3, len(places))
     rows = -(-len(places) // columns)
     width, height = window[1] - window[0], window[3] - window[2]
-    drawn = style.own_figure(figure, *(size or (style.WIDTH, 0.6 + rows * (0.3 + 2.8 * height / width))))
+    drawn = style.own_figure(figure, *(size or (style.WIDTH, 0.5 + 0.25 * bool(title) + rows * (0.28 + 2.72 * height / width))))
     panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     instants = data["snapshot_time"].values
     decimals = max(0, 2 - math.floor(math.log10(instants.max()))) if instants.max() > 0 else 0
     for ax, place, instant in zip(panels.flat, places, instants, strict=False):
         mesh_drawing.bodies(ax, place, parts, rims, fine=True)
         ax.set(xlim=window[:2], ylim=window[2:], aspect="equal", title=f"t = {instant:.{decimals}f} s")
-        inset = ax.inset_axes((0.0, 0.0, 0.3, 0.42), xticks=[], yticks=[])
+        inset = ax.inset_axes((0.0, 0.0, 0.3, 0.42), xticks=[], yticks=[], anchor="SW")
         mesh_drawing.bodies(inset, place, parts, rims, fine=False)
         inset.set(xlim=scene[:2], ylim=scene[2:], aspect="equal")
         inset.add_patch(Rectangle((window[0], window[2]), width, height, fill=False, linewidth=1.2))
+    names = [str(name) for name in data["body"].values]
+    mesh_drawing.names(panels.flat[0], places[0], parts, names, window)
     for ax in panels.flat[len(places) :]:
         ax.set_visible(False)
     for ax in panels[-1]:

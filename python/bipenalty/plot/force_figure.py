@@ -6,13 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from bipenalty import checks
 from bipenalty.plot import style
 
+#: From the smallest p_s to the largest, which is the noisiest and lies at the back.
+COLOURS = ("#000000", "#D55E00", "#0072B2", "#B9C4CF", "#CC79A7", "#E69F00")
 METHODS = ("stiffness", "bipenalty", "bipenalty (D = 0.0001)")
 
 
@@ -29,8 +30,8 @@ def force(
 ) -> Figure:
     """Draw the total contact force (N/m, compression positive) against time (s), one panel a method.
 
-    The peak of each run stands in the legend, also when it lies outside of the panel; a run that failed is drawn
-    as far as it came.
+    The highest force stands above each panel, also when it lies outside of it; a run that failed is drawn as far as
+    it came.
 
     Parameters
     ----------
@@ -54,20 +55,22 @@ def force(
     drawn = style.own_figure(figure, *(size or (style.WIDTH, 1.2 + 2.2 * len(chosen))))
     panels = drawn.subplots(len(chosen), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for i, (ax, label) in enumerate(zip(panels, chosen, strict=True)):
-        _panel(ax, data.isel(run=np.flatnonzero(data["method"].values == label)), label, ps)
-        ax.set_title(f"({chr(ord('a') + i)}) {label}", loc="left", fontsize=11)
+        highest = _panel(ax, data.isel(run=np.flatnonzero(data["method"].values == label)), label, ps)
+        ax.set_title(f"({chr(ord('a') + i)}) {label}: {highest}", loc="left", fontsize=11)
         ax.set_ylabel("contact force (N/m)")
     panels[-1].set(xlabel="time (s)", xlim=(0, t_end or float(data["time"].max())))
     if limits is not None:
         panels[-1].set_ylim(*limits)
+    panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.13), ncols=len(ps), frameon=False, borderaxespad=0)
     if title:
         drawn.suptitle(title, x=0.01, ha="left")
     return style.whole(drawn)
 
 
-def _panel(ax: Axes, runs: xr.Dataset, label: str, ps: Sequence[float]) -> None:
+def _panel(ax: Axes, runs: xr.Dataset, label: str, ps: Sequence[float]) -> str:
+    """Draw the lines; returns the highest peak in words."""
     known = runs["ps"].values
-    colours = colormaps["cividis_r"](np.linspace(0.12, 1, len(ps)))
+    peaks = []
     for i, factor in enumerate(sorted(ps)):
         found = np.flatnonzero(np.isclose(known, factor, rtol=1e-6))
         checks.within(
@@ -79,9 +82,10 @@ def _panel(ax: Axes, runs: xr.Dataset, label: str, ps: Sequence[float]) -> None:
             "choose among the sweep's factors",
         )
         run = runs.isel(run=int(found[0]))
-        failed = ", failed" if bool(run["failed"]) else ""
-        name = f"$p_s$ = {factor:g}, peak {float(run['peak_force']):.3g} N/m{failed}"
-        ax.plot(run["time"], run["contact_force"], color=colours[i], linewidth=1.3, zorder=3 - i / len(ps), label=name)
+        failed = ", where it fails" if bool(run["failed"]) else ""
+        peaks.append((float(run["peak_force"]), f"peak {float(run['peak_force']):.3g} N/m at $p_s$ = {factor:g}{failed}"))
+        ax.plot(run["time"], run["contact_force"], color=COLOURS[i % len(COLOURS)], linewidth=1.2,
+                zorder=3 - i / len(ps), label=f"$p_s$ = {factor:g}")
     ax.axhline(0, color="0.6", linewidth=0.7, zorder=1)
     style.grid(ax)
-    ax.legend(loc="upper left", fontsize=9, frameon=False, handlelength=1.6)
+    return max(peaks)[1]

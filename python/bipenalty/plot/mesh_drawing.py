@@ -26,7 +26,8 @@ def boundary(elements: Sequence[Ints]) -> Ints:
     """
     edges = np.concatenate([np.stack([e, np.roll(e, -1, axis=1)], axis=-1).reshape(-1, 2) for e in elements])
     _, first, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
-    return edges[first[count == 1]]
+    alone: Ints = edges[first[count == 1]]
+    return alone
 
 
 def bodies(ax: Axes, place: Floats, parts: Sequence[Sequence[Ints]], rims: Sequence[Ints], fine: bool) -> None:
@@ -39,6 +40,18 @@ def bodies(ax: Axes, place: Floats, parts: Sequence[Sequence[Ints]], rims: Seque
         ax.add_collection(LineCollection(list(place[rim]), color=dark, linewidth=1.6 if fine else 0.8))
 
 
+def names(ax: Axes, place: Floats, parts: Sequence[Sequence[Ints]], words: Sequence[str], window: Window) -> None:
+    """Write the name of each body on what the window, (x0, x1, y0, y1) in m, shows of it."""
+    x0, x1, y0, y1 = window
+    for b, (elements, word) in enumerate(zip(parts, words, strict=True)):
+        x, y = np.concatenate([place[corners].reshape(-1, 2) for corners in elements]).T
+        seen = (x > x0) & (x < x1) & (y > y0) & (y < y1)
+        if seen.any():
+            colour = RIMS[b % len(RIMS)]
+            ax.text(x[seen].mean(), y[seen].mean(), word, color=colour, weight="bold", ha="center", va="center",
+                    bbox={"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": "none", "alpha": 0.85})
+
+
 def box(points: Floats, margin: float) -> Window:
     """Window (x0, x1, y0, y1) around points, (N, 2), with a margin as a share of its size."""
     low, high = points.min(axis=0), points.max(axis=0)
@@ -47,7 +60,7 @@ def box(points: Floats, margin: float) -> Window:
 
 
 def contact_window(places: Floats, rims: Sequence[Ints], aspect: float = 0.8) -> Window:
-    """Window around the boundary nodes that come nearer to another body than two edges, at any instant.
+    """Window around the boundary nodes that come nearer to another body than an edge, at any instant.
 
     Parameters
     ----------
@@ -59,13 +72,13 @@ def contact_window(places: Floats, rims: Sequence[Ints], aspect: float = 0.8) ->
     for place in places:
         for a, rim in enumerate(rims):
             nodes = place[np.unique(rim)]
-            reach = 2 * np.linalg.norm(place[rim[:, 1]] - place[rim[:, 0]], axis=1).mean()
+            reach = np.linalg.norm(place[rim[:, 1]] - place[rim[:, 0]], axis=1).mean()
             others = [place[np.unique(other)] for b, other in enumerate(rims) if b != a]
             near += [nodes[_distance(nodes, other) < reach] for other in others]
     found = np.concatenate(near) if near else np.empty((0, 2))
     if not len(found):
         return box(places.reshape(-1, 2), 0.03)
-    x0, x1, y0, y1 = box(found, 0.3)
+    x0, x1, y0, y1 = box(found, 0.25)
     half = max(x1 - x0, (y1 - y0) / aspect) / 2
     x, y = (x0 + x1) / 2, (y0 + y1) / 2
     return x - half, x + half, y - aspect * half, y + aspect * half

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from bipenalty.plot import style
@@ -72,7 +73,7 @@ def penetration(
     ax.set_xlim(data["ps"].values[data["ps"].values > 0].min() / 1.25, data["ps"].values.max() * 1.25)
     _strip(ax, failures, style.looks(chosen))
     ax.set_title(_claim(data, chosen, failures) if title is None else title, loc="left")
-    ax.legend(loc="best", frameon=False, handlelength=2.6)
+    ax.legend(loc="lower left", frameon=False, handlelength=2.6, fontsize=9, labelspacing=0.3)
     return style.whole(ax)
 
 
@@ -84,7 +85,7 @@ def _strip(ax: Axes, failures: dict[str, Any], looks: dict[str, dict[str, Any]])
     share = 1 - ROW * (len(failures) + 0.5)  # what is left of the axes for the lines
     ax.set_ylim(low, low * (high / low) ** (1 / share))
     across = ax.get_xaxis_transform()
-    ax.axhspan(share, 1, transform=ax.transAxes, color="0.95", linewidth=0, zorder=0)
+    ax.add_patch(Rectangle((0, share), 1, 1 - share, transform=ax.transAxes, color="0.94", linewidth=0, zorder=0))
     left, right = np.log(ax.get_xlim())
     for row, (label, (ps, cause, end)) in enumerate(failures.items()):
         colour, y = looks[label]["color"], 1 - ROW * (row + 0.75)

@@ -87,7 +87,7 @@ def own_figure(figure: Figure | SubFigure | None, width: float, height: float) -
 def whole(part: Axes | Figure | SubFigure) -> Figure:
     """The figure that a part belongs to."""
     figure = part if isinstance(part, Figure) else part.figure
-    return figure if isinstance(figure, Figure) else whole(figure)  # type: ignore[arg-type]
+    return figure if isinstance(figure, Figure) else whole(figure)
 
 
 def grid(ax: Axes) -> None:

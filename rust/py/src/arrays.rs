@@ -11,9 +11,13 @@ pub fn pairs<'py>(py: Python<'py>, values: &[[f64; 2]]) -> PyResult<Bound<'py, P
     PyArray1::from_slice(py, values.as_flattened()).reshape([values.len(), 2])
 }
 
-/// Pairs as an (n / groups, groups, 2) array.
-pub fn grouped<'py>(py: Python<'py>, values: &[[f64; 2]], groups: usize) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let rows = values.len().checked_div(groups).unwrap_or(0);
+/// Pairs as a (rows, groups, 2) array; there may be no groups.
+pub fn grouped<'py>(
+    py: Python<'py>,
+    values: &[[f64; 2]],
+    rows: usize,
+    groups: usize,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
     PyArray1::from_slice(py, values.as_flattened()).reshape([rows, groups, 2])
 }
 

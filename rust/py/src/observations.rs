@@ -15,7 +15,7 @@ pub fn all<'py>(py: Python<'py>, run: &Run) -> PyResult<Bound<'py, PyDict>> {
     dict.set_item("contact_force", PyArray1::from_slice(py, &h.force))?;
     dict.set_item("penetration", PyArray1::from_slice(py, &h.penetration))?;
     dict.set_item("active_rows", PyArray1::from_slice(py, &h.active))?;
-    dict.set_item("force_on", arrays::grouped(py, &h.force_on, run.model.contacts.len())?)?;
+    dict.set_item("force_on", arrays::grouped(py, &h.force_on, h.steps.len(), run.model.contacts.len())?)?;
     dict.set_item("energy_step", PyArray1::from_slice(py, &h.energy_steps))?;
     let energy = |get: fn(&Energies) -> f64| PyArray1::from_iter(py, h.energies.iter().map(get));
     dict.set_item("kinetic_energy", energy(|e| e.kinetic))?;
@@ -25,7 +25,7 @@ pub fn all<'py>(py: Python<'py>, run: &Run) -> PyResult<Bound<'py, PyDict>> {
     dict.set_item("load_potential", energy(|e| e.load_potential))?;
     dict.set_item("largest_displacement", energy(|e| e.max_displacement))?;
     dict.set_item("damping_loss", PyArray1::from_slice(py, &h.damping_loss))?;
-    dict.set_item("momentum", arrays::grouped(py, &h.momentum, run.model.bodies.len())?)?;
+    dict.set_item("momentum", arrays::grouped(py, &h.momentum, h.energies.len(), run.model.bodies.len())?)?;
     dict.set_item("snapshot_step", PyArray1::from_iter(py, h.snapshots.iter().map(|s| s.step)))?;
     let snapshots = |get: fn(&bipenalty::history::Snapshot) -> &[f64]| {
         h.snapshots.iter().map(|s| arrays::nodal(py, get(s))).collect::<PyResult<Vec<_>>>()
