@@ -63,12 +63,27 @@ def half_plane(method: Any) -> Case:
 
 
 def valley(method: Any) -> Case:
-    """A disc falls into an open valley and slides past its bottom, a reentrant vertex of the obstacle."""
-    disc = bp.Body("disc", bp.mesh.disc(segments=16).rotated(0.05), scenes.elastic(100), velocity=(0.8, -1.0),
-                   body_force=(0.0, -2.0))
-    floor = bp.Polyline("floor", points=[(4, -0.8), (0.2, -1.02), (-0.5, -0.98), (-3, -0.5)])
-    scene = bp.Scene([disc], contacts=[bp.Contact("disc", "floor")], obstacles=[floor])
-    return Case(scene, method, steps=600, safety=0.25)
+    """The corner of a tilted block falls into the bottom of an open valley, a reentrant vertex of the obstacle."""
+    mesh = bp.mesh.rectangle(1.0, 1.0, 4, 4, element="triangle").rotated(0.9)
+    body = bp.Body("block", mesh, scenes.elastic(100, 0.3, 1.0), velocity=(0.0, -0.5), body_force=(0.1, -5.0))
+    floor = bp.Polyline("floor", points=[(2, 1.2), (0.6, 0.3), (0.0, -0.003), (-0.9, 0.5), (-2, 1.2)])
+    scene = bp.Scene([body], contacts=[bp.Contact("block", "floor")], obstacles=[floor])
+    return Case(scene, method, steps=500, safety=0.4)
+
+
+def notch(method: Any) -> Case:
+    """The corner of a tilted block meets the bottom of a notch, a reentrant vertex of the body below; two passes."""
+    mesh = bp.mesh.rectangle(2.0, 0.8, 8, 3)
+    bend = np.maximum(0.0, 1 - np.abs(mesh.points[:, 0] - 1.0) / 0.25)
+    points = mesh.points * np.column_stack([np.ones(len(bend)), 1 - 0.15 * bend])
+    notched = bp.Mesh(points, quads=mesh.quads, boundaries={"bottom": mesh.boundaries["bottom"]})
+    corner = bp.mesh.rectangle(0.6, 0.6, 3, 3).rotated(0.8).moved(1.0, 0.8 * 0.85 + 0.001)
+    bodies = [
+        bp.Body("block", notched, scenes.elastic(100, 0.3, 1.0)),
+        bp.Body("corner", corner, scenes.elastic(200, 0.3, 1.0), velocity=(0.0, -0.3), body_force=(0.0, -3.0)),
+    ]
+    contacts = [bp.Contact("corner", "block", passes=2)]
+    return Case(bp.Scene(bodies, contacts, [bp.Support("block", "bottom")]), method, steps=500, safety=0.4)
 
 
 def island(method: Any) -> Case:
@@ -115,7 +130,7 @@ def cylinders(method: Any, element: scenes.Element, passes: int) -> Case:
     return Case(scenes.small_cylinders(element, passes), method, steps, safety)
 
 
-SCENES = [half_plane, valley, island, supports, chain]
+SCENES = [half_plane, valley, notch, island, supports, chain]
 
 
 def cases() -> Iterator[Any]:
