@@ -13,6 +13,7 @@ from bipenalty import _core, checks, progress
 from bipenalty.errors import InputError, RunError
 from bipenalty.lower import lower
 from bipenalty.methods import Bipenalty, Method
+from bipenalty.methods.method import penalty_ratio
 from bipenalty.result import Result
 from bipenalty.result_dataset import run_dataset
 from bipenalty.scene import Scene
@@ -88,9 +89,7 @@ class Model:
     @property
     def R(self) -> float:
         """Penalty ratio, 1/s^2; infinite without a mass penalty."""
-        if self.method.R is not None:
-            return self.method.R
-        return math.inf if self.method.R_safety is None else self.method.R_safety * 4 / self.dt**2
+        return penalty_ratio(self.method, self.dt)
 
     @property
     def displacement(self) -> FloatArray:
@@ -128,6 +127,7 @@ class Model:
         energy_every: int = 10,
         displacement_limit: float | None = None,
         show_progress: bool | None = None,
+        throw: bool = False,
     ) -> Result:
         """Run until t_end and return what was observed; Ctrl-C stops within a second and keeps what there is.
 
@@ -139,6 +139,7 @@ class Model:
         energy_every : energies every so many steps, and at the last.
         displacement_limit : m; a run that passes it ends there with that outcome.
         show_progress : None for a bar on a terminal only.
+        throw : raise a RunError that carries the result unless the run finished (or was interrupted).
 
         Returns
         -------
@@ -150,7 +151,10 @@ class Model:
         limit = math.inf if displacement_limit is None else displacement_limit
         self._run.configure(*strides, kept, checks.number("run", "displacement_limit", limit), steps)
         interrupted = self._advance(steps, show_progress)
-        return self.result(interrupted=interrupted)
+        result = self.result(interrupted=interrupted)
+        if throw and result.outcome not in ("finished", "interrupted"):
+            raise RunError(f"{result.outcome}: {result.reason}", result)
+        return result
 
     def _steps_to(self, t_end: float) -> int:
         end = checks.number("run", "t_end", t_end)
@@ -200,7 +204,7 @@ class Model:
             raise InputError("result: number of steps = 0, must be >= 1; step or run first")
         seen = self._run.observations()
         seen["seconds"] = self._seconds
-        if interrupted:
+        if interrupted and not seen["stopped"]:
             seen["outcome"], seen["reason"] = "interrupted", f"stopped by the user at t = {self.time:.4g} s"
         elif seen["outcome"] == "running":
             seen["outcome"] = "finished"

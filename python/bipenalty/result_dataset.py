@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from bipenalty import _core
+from bipenalty.methods.method import Method, damping_factor, penalty_factor, penalty_ratio
 
 if TYPE_CHECKING:
     from bipenalty.model import Model
@@ -33,13 +35,11 @@ def package_version() -> str:
         return _core.__version__
 
 
-def method_attributes(method: Any, ratio: float) -> dict[str, float | str]:
+def method_attributes(method: Method, dt: float) -> dict[str, float | str]:
     """Label and parameters of a method; 0 for a penalty it does not have, R infinite without mass penalty."""
-    damping = method.D if method.D is not None else 0.0
-    if method.zeta is not None:
-        damping = 2 * method.zeta / np.sqrt(ratio)
-    zeta = 0.0 if np.isinf(ratio) else damping * np.sqrt(ratio) / 2
-    return {"method": method.label, "ps": method.ps, "R": ratio, "D": float(damping), "zeta": float(zeta)}
+    ratio, damping = penalty_ratio(method, dt), damping_factor(method, dt)
+    zeta = 0.0 if math.isinf(ratio) else damping * math.sqrt(ratio) / 2
+    return {"method": method.label, "ps": penalty_factor(method), "R": ratio, "D": damping, "zeta": zeta}
 
 
 def run_dataset(model: Model, core: _core.Model, seen: dict[str, Any]) -> xr.Dataset:
@@ -101,8 +101,9 @@ def _attributes(model: Model, seen: dict[str, Any]) -> dict[str, Any]:
         "peak_force",
         "impulse",
         "energy_ratio",
+        "energy_made",
         "seconds",
     )
     steps = {"dt": model.dt, "critical_dt": model.critical_dt}
     about = {name: seen[name] for name in summary}
-    return method_attributes(model.method, model.R) | steps | about | {"version": package_version()}
+    return method_attributes(model.method, model.dt) | steps | about | {"version": package_version()}

@@ -25,6 +25,7 @@ SUMMARY = {
     "peak_force": ("N/m", "largest total contact force"),
     "impulse": ("N s/m", "impulse of the total contact force"),
     "energy_ratio": ("1", "total energy at the end over that at the start"),
+    "energy_made": ("1", "most energy that contact had added, over what there was"),
     "steps": ("1", "steps taken"),
     "seconds": ("s", "time the run took"),
 }
@@ -128,10 +129,10 @@ def _dataset(
     histories: bool,
     attributes: dict[str, Any],
 ) -> xr.Dataset:
-    lost = dict.fromkeys(SUMMARY, math.nan) | {"outcome": "lost", "reason": "its thread died", "planned_steps": 0}
+    lost = dict.fromkeys(SUMMARY, math.nan) | {"outcome": "lost", "reason": "its thread died", "planned_steps": 0, "stopped": True}
     runs = [lost if s is None else s for s in seen]
     ended = [_outcome(run) for run in runs]
-    labels = [method_attributes(m, _ratio(m, dt)) for m in methods]
+    labels = [method_attributes(m, dt) for m in methods]
     coords: dict[str, Any] = {key: ("run", [label[key] for label in labels]) for key in labels[0]}
     coords["D"] = ("run", coords["D"][1], {"units": "s", "long_name": "damping penalty factor"})
     coords["R"] = ("run", coords["R"][1], {"units": "s-2", "long_name": "penalty ratio"})
@@ -141,7 +142,7 @@ def _dataset(
     }
     data["outcome"] = ("run", ended)
     data["reason"] = ("run", [str(run["reason"]) for run in runs])
-    data["failed"] = ("run", np.array([e not in ("finished", "interrupted") for e in ended]))
+    data["failed"] = ("run", np.array([bool(run["stopped"]) for run in runs]))
     data["finished"] = ("run", np.array([e == "finished" for e in ended]))
     if histories:
         coords["time"] = ("time", np.arange(steps) * dt, {"units": "s", "long_name": "time"})
@@ -158,9 +159,3 @@ def _outcome(run: dict[str, Any]) -> str:
     if run["outcome"] != "running":
         return str(run["outcome"])
     return "finished" if run["steps"] >= run["planned_steps"] else "interrupted"
-
-
-def _ratio(method: Method, dt: float) -> float:
-    if method.R is not None:
-        return method.R
-    return math.inf if method.R_safety is None else method.R_safety * 4 / dt**2

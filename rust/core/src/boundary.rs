@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
+use crate::element::signed_area;
 use crate::error::{Error, Result};
+use crate::material::Material;
 use crate::mesh::Mesh;
 
 /// Closed loops of node numbers; the edge from `loop[i]` to `loop[i + 1]` has the body on its left.
@@ -31,6 +33,24 @@ pub fn boundary_loops(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
         loops.push(ring);
     }
     Ok(loops)
+}
+
+/// `K A^2/V` (N/m) of the element behind each boundary edge, loop by loop: bulk modulus K, area A of the edge times the
+/// thickness, volume V of the element (Hallquist, Goudreau and Benson 1985).
+pub fn edge_stiffness(mesh: &Mesh, loops: &[Vec<usize>], material: &Material, thickness: f64) -> Vec<f64> {
+    let mut area_behind = HashMap::new();
+    for (_, _, nodes) in mesh.elements() {
+        let points: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.points[n]).collect();
+        let area = signed_area(&points);
+        area_behind.extend((0..nodes.len()).map(|i| ((nodes[i], nodes[(i + 1) % nodes.len()]), area)));
+    }
+    let edges = loops.iter().flat_map(|ring| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])));
+    let stiffness = |(a, b): (usize, usize)| {
+        let (p, q) = (mesh.points[a], mesh.points[b]);
+        let length2 = (q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2);
+        material.bulk_modulus() * thickness * length2 / area_behind[&(a, b)]
+    };
+    edges.map(stiffness).collect()
 }
 
 /// Edges that one element has to itself, as the map from their first to their second node.

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::outcome::Kind;
+
 /// Every failure of the crate. `Input` is something the caller can mend; `Run` ends a run that has begun.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
@@ -9,14 +11,24 @@ pub enum Error {
     #[error("{0}")]
     Input(String),
     /// A run cannot go on; what it has recorded so far is kept.
-    #[error("{0}")]
-    Run(String),
+    #[error("{1}")]
+    Run(Kind, String),
 }
 
 impl Error {
     /// `object: quantity = value, must be bound; remedy`.
     pub fn bound(object: &str, quantity: &str, value: impl std::fmt::Display, bound: &str, remedy: &str) -> Self {
         Self::Input(format!("{object}: {quantity} = {value}, must be {bound}; {remedy}"))
+    }
+}
+
+impl Error {
+    /// What kind of end a run comes to by this error.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Input(_) => Kind::NotFinite,
+            Self::Run(kind, _) => *kind,
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! What a run has observed: contact at every step, energies at every few, snapshots at chosen ones.
 
-use crate::critical_step::row_omega2;
 use crate::energy::Energies;
 use crate::mass_block::RowForces;
 use crate::model::Model;
@@ -28,8 +27,6 @@ pub struct Peaks {
     pub impulse: f64,
     /// Largest displacement sampled (m).
     pub displacement: f64,
-    /// Largest single-row frequency squared (1/s^2).
-    pub row_omega2: f64,
 }
 
 /// Displacement and velocity at one instant.
@@ -68,7 +65,6 @@ pub struct History {
     pub snapshots: Vec<Snapshot>,
     /// Peaks.
     pub peaks: Peaks,
-    lost: f64,
 }
 
 impl History {
@@ -95,8 +91,7 @@ impl History {
             self.force_on.resize(first + contacts, [0.0; 2]);
         }
         let (mut total, mut deepest, mut active) = (0.0, 0.0_f64, 0);
-        for ((row, lambda), rate) in rows.iter().zip(&forces.lambda).zip(&forces.rate) {
-            self.lost += dt * row.penalties.alpha_d * rate * rate;
+        for (row, lambda) in rows.iter().zip(&forces.lambda) {
             let source = row.source as usize;
             if source >= contacts {
                 continue;
@@ -115,7 +110,6 @@ impl History {
         self.peaks.penetration = self.peaks.penetration.max(deepest);
         self.peaks.force = self.peaks.force.max(total);
         self.peaks.impulse += dt * total;
-        self.peaks.row_omega2 = self.peaks.row_omega2.max(row_omega2(model, rows));
         if keep {
             self.steps.push(step);
             self.force.push(total);
@@ -125,10 +119,10 @@ impl History {
     }
 
     /// Takes in an energy sample.
-    pub fn sample(&mut self, step: u64, energies: Energies, momentum: &[[f64; 2]]) {
+    pub fn sample(&mut self, step: u64, energies: Energies, damping_loss: f64, momentum: &[[f64; 2]]) {
         self.energy_steps.push(step);
         self.energies.push(energies);
-        self.damping_loss.push(self.lost);
+        self.damping_loss.push(damping_loss);
         self.momentum.extend_from_slice(momentum);
         let peaks = &mut self.peaks;
         let largest = energies.max_displacement;

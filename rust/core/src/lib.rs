@@ -26,3 +26,4 @@ pub mod scene;
 pub mod state;
 pub mod step;
 pub mod stiffness;
+pub mod watch;

@@ -1,5 +1,7 @@
 //! Lowering of contacts: names to surfaces and pairs.
 
+use std::collections::HashMap;
+
 use crate::contact::overlap::TOLERANCE;
 use crate::contact::pair::SurfaceNode;
 use crate::contact::surface::Vertices;
@@ -83,14 +85,41 @@ fn pair(
     let secondary_length = nodes.iter().map(length).sum::<f64>() / nodes.len() as f64;
     let young = primary_body.map_or(0.0, |b| model.bodies[b as usize].young).max(secondary.young);
     let first_pass = secondary_body == first_named;
-    Pair { contact, first_pass, secondary_body, primary_body, secondary: nodes, secondary_length, primary, young }
+    let node_stiffness = if primary_body.is_some() { HashMap::new() } else { node_stiffness(secondary) };
+    let secondary = nodes;
+    Pair {
+        contact,
+        first_pass,
+        secondary_body,
+        primary_body,
+        secondary,
+        secondary_length,
+        primary,
+        young,
+        node_stiffness,
+    }
+}
+
+/// Mean of the two edges that meet at each node.
+fn node_stiffness(body: &Body) -> HashMap<u32, f64> {
+    let mut edges = body.edge_stiffness.iter();
+    let mut stiffness = HashMap::new();
+    for ring in &body.loops {
+        for (i, k) in edges.by_ref().take(ring.len()).enumerate() {
+            *stiffness.entry(ring[i]).or_insert(0.0) += 0.5 * k;
+            *stiffness.entry(ring[(i + 1) % ring.len()]).or_insert(0.0) += 0.5 * k;
+        }
+    }
+    stiffness
 }
 
 fn surface(model: &Model, body: &Body) -> Primary {
     let vertices: Vec<u32> = body.loops.iter().flatten().copied().collect();
     let mut number = 0..;
     let rings: Vec<Vec<u32>> = body.loops.iter().map(|ring| number.by_ref().take(ring.len()).collect()).collect();
-    Primary::Surface(Surface::new(&rings, true, &model.points, Vertices::Nodes(vertices)))
+    let mut surface = Surface::new(&rings, true, &model.points, Vertices::Nodes(vertices));
+    surface.element_stiffness.clone_from(&body.edge_stiffness);
+    Primary::Surface(surface)
 }
 
 fn rigid(name: &str, obstacle: &Obstacle) -> Result<Primary> {

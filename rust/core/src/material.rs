@@ -39,6 +39,11 @@ impl Material {
         Matrix3::new(lame + 2.0 * shear, lame, 0.0, lame, lame + 2.0 * shear, 0.0, 0.0, 0.0, shear)
     }
 
+    /// Bulk modulus E / (3 (1 - 2 nu)) (N/m^2).
+    pub fn bulk_modulus(&self) -> f64 {
+        self.young / (3.0 * (1.0 - 2.0 * self.poisson))
+    }
+
     /// Checks the constants; `object` is what messages call the owner.
     ///
     /// # Errors

@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
-use crate::boundary::boundary_loops;
+use crate::boundary::{boundary_loops, edge_stiffness};
 use crate::constraint::linear::Linear;
 use crate::contact::Pair;
+use crate::contact::surface::position;
+use crate::element::signed_area;
 use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::lower;
@@ -21,8 +23,14 @@ pub struct Body {
     pub nodes: Range<usize>,
     /// Young's modulus (N/m^2).
     pub young: f64,
+    /// Its triangles in the model's node numbers.
+    pub triangles: Vec<[u32; 3]>,
+    /// Its quads in the model's node numbers.
+    pub quads: Vec<[u32; 4]>,
     /// Outward boundary loops in the model's node numbers.
     pub loops: Vec<Vec<u32>>,
+    /// `K A^2/V` (N/m) of the element behind each boundary edge, loop by loop.
+    pub edge_stiffness: Vec<f64>,
     /// Largest element eigenfrequency (rad/s).
     pub element_omega: f64,
 }
@@ -110,6 +118,7 @@ impl Model {
         let (mesh, _) = body.mesh.checked().map_err(in_body)?;
         let loops = boundary_loops(&mesh).map_err(in_body)?;
         let parts = assemble(&mesh, &body.material, body.thickness);
+        let edge_stiffness = edge_stiffness(&mesh, &loops, &body.material, body.thickness);
 
         let first = self.points.len();
         let nodes = first..first + mesh.points.len();
@@ -128,14 +137,35 @@ impl Model {
         self.mass.extend(parts.mass);
         self.points.extend(mesh.points);
         let loops = loops.into_iter().map(|ring| ring.into_iter().map(|n| (n + first) as u32).collect()).collect();
-        let (name, young, element_omega) = (body.name, body.material.young, parts.element_omega);
-        self.bodies.push(Body { name, nodes, young, loops, element_omega });
+        let global = |n: usize| (n + first) as u32;
+        self.bodies.push(Body {
+            name: body.name,
+            nodes,
+            young: body.material.young,
+            triangles: mesh.triangles.iter().map(|t| t.map(global)).collect(),
+            quads: mesh.quads.iter().map(|q| q.map(global)).collect(),
+            loops,
+            edge_stiffness,
+            element_omega: parts.element_omega,
+        });
         Ok(())
     }
 
     /// Largest element eigenfrequency of all bodies (rad/s).
     pub fn element_omega(&self) -> f64 {
         self.bodies.iter().map(|b| b.element_omega).fold(0.0, f64::max)
+    }
+
+    /// First element that a displacement has turned inside out, by kind, number and body.
+    pub fn inverted(&self, displacement: &[f64]) -> Option<String> {
+        let u = Lane::new(displacement, 1, 0);
+        let at = |n: u32| position(n, &self.points, u);
+        self.bodies.iter().find_map(|body| {
+            let triangle = body.triangles.iter().position(|t| signed_area(&t.map(at)) <= 0.0);
+            let quad = || body.quads.iter().position(|q| signed_area(&q.map(at)) <= 0.0);
+            let found = triangle.map(|e| ("triangle", e)).or_else(|| quad().map(|e| ("quad", e)));
+            found.map(|(kind, e)| format!("{kind} {e} of \"{}\"", body.name))
+        })
     }
 
     /// Nodal force f - K u (N) of one node.

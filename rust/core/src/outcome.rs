@@ -1,16 +1,47 @@
 //! How a run ended, and the sentence that says why.
 
 use crate::error::short;
+use crate::model::Model;
+use crate::watch::{TOLERANCE, Watch};
+
+/// What ended a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A frequency of elements or rows above 2/dt.
+    SpectralInstability,
+    /// Rows that open and close have added energy though every frequency is below 2/dt.
+    EnergyMade,
+    /// A displacement passed the limit given.
+    DisplacementLimit,
+    /// An element has no area left.
+    ElementInverted,
+    /// A surface moved farther in one step than contact can follow.
+    ContactMissed,
+    /// The state is not finite.
+    NotFinite,
+}
+
+impl Kind {
+    /// Name for tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SpectralInstability => "spectral instability",
+            Self::EnergyMade => "energy made by contact",
+            Self::DisplacementLimit => "displacement limit passed",
+            Self::ElementInverted => "element inverted",
+            Self::ContactMissed => "contact missed",
+            Self::NotFinite => "not finite",
+        }
+    }
+}
 
 /// How a run stands or has ended; the text says which limit was passed, by how much, and what to change.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
     /// Not over, or over without failure.
     Running,
-    /// A displacement passed the limit given.
-    DisplacementLimit(String),
-    /// The state is no longer finite.
-    Diverged(String),
+    /// Ended, or spoilt, by this.
+    Failed(Kind, String),
 }
 
 impl Outcome {
@@ -18,8 +49,7 @@ impl Outcome {
     pub fn name(&self) -> &'static str {
         match self {
             Self::Running => "running",
-            Self::DisplacementLimit(_) => "displacement limit passed",
-            Self::Diverged(_) => "diverged",
+            Self::Failed(kind, _) => kind.name(),
         }
     }
 
@@ -27,64 +57,62 @@ impl Outcome {
     pub fn reason(&self) -> &str {
         match self {
             Self::Running => "",
-            Self::DisplacementLimit(reason) | Self::Diverged(reason) => reason,
+            Self::Failed(_, reason) => reason,
         }
     }
 }
 
-/// What a run's end is judged by.
-pub(crate) struct Limits {
-    /// Time of the end (s).
+/// What a failure is judged by.
+pub(crate) struct Judge<'a> {
+    pub model: &'a Model,
+    pub watch: &'a Watch,
+    /// Time (s) and time step (s).
     pub time: f64,
-    /// Time step (s).
     pub dt: f64,
-    /// Largest element frequency (rad/s).
-    pub element_omega: f64,
-    /// Largest frequency of a single row so far (rad/s).
-    pub row_omega: f64,
-    /// True when every row with stiffness has a mass penalty too.
-    pub mass_penalty: bool,
-    /// Largest penalty ratio R (1/s^2).
+    /// Penalty ratio R (1/s^2); infinite without a mass penalty.
     pub ratio: f64,
-    /// Total energy over that at the start.
-    pub energy_ratio: f64,
 }
 
-impl Limits {
-    pub(crate) fn diverged(&self) -> String {
-        format!("displacement not finite at t = {} s; {}", short(self.time), self.cause())
-    }
-
-    pub(crate) fn passed_displacement(&self, displacement: f64, limit: f64) -> String {
-        let (displacement, limit, time) = (short(displacement), short(limit), short(self.time));
-        format!("displacement {displacement} m passed the limit {limit} m at t = {time} s; {}", self.cause())
-    }
-
-    /// Spectral limit passed, or energy made while inside it.
-    fn cause(&self) -> String {
-        let (mesh, row) = (self.element_omega * self.dt, self.row_omega * self.dt);
-        // A row raises omega^2 by no more than its own (rank-one bound) and to no less than it; with a mass penalty
-        // the larger of omega_0^2 and R bounds it for any number of rows.
-        let ratio = self.ratio.sqrt() * self.dt;
-        let bound = if self.mass_penalty { mesh.max(ratio) } else { mesh.hypot(row) };
-        let energy = short(self.energy_ratio);
-        if mesh > 2.0 {
-            format!("time step instability: omega dt = {} of the elements is above 2: reduce dt", short(mesh))
-        } else if self.mass_penalty && ratio > 2.0 {
-            let what = "of the penalty ratio, sqrt(R) dt,";
-            format!("time step instability: omega dt = {} {what} is above 2: lower R to 4/dt^2", short(ratio))
-        } else if bound > 2.0 {
-            let which = if row > 2.0 { short(row) } else { format!("up to {}", short(bound)) };
-            format!(
-                "time step instability: omega dt = {which} with the contact rows is above 2: lower p_s or add a mass \
-                 penalty"
-            )
+impl Judge<'_> {
+    /// The outcome of a run in which `seen` was noticed as a `kind`: a deeper cause takes its place if there is one.
+    pub(crate) fn outcome(&self, kind: Kind, seen: &str) -> Outcome {
+        let (mesh, row) = (self.model.element_omega() * self.dt, self.watch.row_omega2.sqrt() * self.dt);
+        let time = format!("t = {} s", short(self.time));
+        let gained = self.watch.passed(TOLERANCE);
+        let energy = || format!("contact has added {} times the energy there was", short(self.watch.gain()));
+        let (kind, why) = if self.ratio.is_finite() && self.ratio.sqrt() * self.dt > 2.0 && gained {
+            let omega = short(self.ratio.sqrt() * self.dt);
+            (Kind::SpectralInstability, format!("omega dt = {omega} of the penalty ratio, above 2; lower R to 4/dt^2"))
+        } else if self.ratio.is_infinite() && gained && mesh.hypot(row) > 2.0 {
+            (Kind::SpectralInstability, self.rows_too_fast(mesh, row))
+        } else if mesh > 2.0 && !gained && kind != Kind::ElementInverted {
+            let bodies = self.model.bodies.iter().max_by(|a, b| a.element_omega.total_cmp(&b.element_omega));
+            let (name, omega) = (bodies.map_or("", |b| &b.name), short(mesh));
+            let why = format!("omega dt = {omega} of the elements of \"{name}\" is above 2; reduce dt");
+            (Kind::SpectralInstability, why)
+        } else if gained {
+            let bound = if self.ratio.is_finite() { mesh.max(self.ratio.sqrt() * self.dt) } else { mesh.hypot(row) };
+            let remedy = "use rule=\"critical\", add damping or lower p_s";
+            let within = format!("though omega dt = {} is within 2", short(bound));
+            (Kind::EnergyMade, format!("{} {within}: rows that open and close make it; {remedy}", energy()))
         } else {
-            format!(
-                "energy made by contact switching ({energy} times the initial energy) though omega dt = {} is within \
-                 2: lower p_s or add damping",
-                short(bound)
-            )
+            return Outcome::Failed(kind, format!("{seen} at {time}"));
+        };
+        let seen = if seen.is_empty() { format!("by {time}") } else { format!("{seen} at {time}") };
+        Outcome::Failed(kind, format!("{seen}: {why}"))
+    }
+
+    /// A row raises omega^2 by no more than its own (rank-one bound) and to no less than it.
+    fn rows_too_fast(&self, mesh: f64, row: f64) -> String {
+        let node = self.watch.row_node as usize;
+        let body = self.model.bodies.iter().find(|b| b.nodes.contains(&node));
+        let place = body.map_or(String::new(), |b| format!("node {} of \"{}\"", node - b.nodes.start, b.name));
+        let remedy = "lower p_s, reduce dt or add a mass penalty";
+        if row > 2.0 {
+            format!("omega dt = {} of the contact row at {place} is above 2; {remedy}", short(row))
+        } else {
+            let both = short(mesh.hypot(row));
+            format!("omega dt reaches up to {both} with the contact row at {place}, above 2; {remedy}")
         }
     }
 }

@@ -24,6 +24,15 @@ impl Penalties {
     }
 }
 
+/// What is behind a row, for the rules that choose its penalties.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Behind {
+    /// Young's modulus of the stiffer body (N/m^2).
+    pub young: f64,
+    /// `K A^2/V` of the element behind the primary segment (N/m), K its bulk modulus.
+    pub element_stiffness: f64,
+}
+
 /// One constraint row `c`: gap g_c, gradient G_c = dg_c/du and penalties.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
@@ -34,18 +43,21 @@ pub struct Row {
     pub source: u32,
     /// Signed gap (m), negative in penetration.
     pub gap: f64,
-    /// Penalties of the row.
+    /// What is behind it.
+    pub behind: Behind,
+    /// Penalties of the row; none until a rule has chosen them.
     pub penalties: Penalties,
 }
 
 impl Row {
     /// A row over the nodes given with their gradients.
-    pub fn new(entries: &[(u32, [f64; 2])], source: u32, gap: f64, penalties: Penalties) -> Self {
+    pub fn new(entries: &[(u32, [f64; 2])], source: u32, gap: f64, behind: Behind) -> Self {
         let (mut nodes, mut gradient) = ([0; MAX_NODES], [[0.0; 2]; MAX_NODES]);
         for (i, &(node, g)) in entries.iter().enumerate() {
             (nodes[i], gradient[i]) = (node, g);
         }
-        Self { nodes, gradient, count: entries.len() as u32, source, gap, penalties }
+        let (count, penalties) = (entries.len() as u32, Penalties::default());
+        Self { nodes, gradient, count, source, gap, behind, penalties }
     }
 
     /// Nodes and gradients dg/du of the row.
@@ -62,6 +74,26 @@ impl Row {
             g[0] * x[0] + g[1] * x[1]
         };
         self.entries().map(dot).sum()
+    }
+
+    /// First node of the row: the secondary node of a contact.
+    pub fn first_node(&self) -> u32 {
+        self.nodes[0]
+    }
+
+    /// Frequency squared (1/s^2) of the row alone on its nodes: `alpha_s w / (1 + alpha_m w)`, w = G M^-1 G'.
+    ///
+    /// Below R for any row with a mass penalty (Hetherington, Rodriguez-Ferran and Askes 2012).
+    pub fn omega2(&self, inverse_mass: &[[f64; 2]]) -> f64 {
+        let w = self.inverse_mass(inverse_mass);
+        self.penalties.alpha_s * w / (1.0 + self.penalties.alpha_m * w)
+    }
+
+    /// Smallest nodal mass (kg) of the row's free nodes; none free: 0.
+    pub fn smallest_mass(&self, inverse_mass: &[[f64; 2]]) -> f64 {
+        let largest = |(node, _): (u32, _)| inverse_mass[node as usize].into_iter().fold(0.0, f64::max);
+        let inverse = self.entries().map(largest).fold(0.0, f64::max);
+        if inverse > 0.0 { 1.0 / inverse } else { 0.0 }
     }
 
     /// Inverse effective mass `G M^-1 G'` (1/kg) of the row.

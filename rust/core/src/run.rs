@@ -5,15 +5,19 @@ use std::sync::Arc;
 use crate::contact::overlap;
 use crate::critical_step::element_bound;
 use crate::energy;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, short};
 use crate::history::{History, Record, Snapshot};
 use crate::lane::Lane;
 use crate::model::Model;
-use crate::outcome::{Limits, Outcome};
+use crate::outcome::{Judge, Kind, Outcome};
 use crate::penalty::Method;
 use crate::state::State;
 use crate::step::{Settings, Workspace, step};
 use crate::stiffness::Isa;
+use crate::watch::{RUNAWAY, TOLERANCE, Watch};
+
+/// Energy samples between two looks at the shapes of the elements.
+const SHAPE_EVERY: u64 = 10;
 
 /// What tells one run of a model from another.
 #[derive(Debug, Clone)]
@@ -48,6 +52,8 @@ pub struct Run {
     pub record: Record,
     /// How the run stands.
     pub outcome: Outcome,
+    /// Work and frequencies of the rows.
+    pub watch: Watch,
     displacement_limit: f64,
     before: Vec<f64>,
     momentum: Vec<[f64; 2]>,
@@ -64,13 +70,7 @@ impl Run {
         check_displacement_limit(spec.displacement_limit)?;
         let state = State::new(&model, &spec.velocity, &spec.displacement, spec.dt)?;
         check_overlap(&model, Lane::new(&state.displacement, 1, 0))?;
-        let penalties = |young| spec.method.penalties(young, spec.dt);
-        let settings = Settings {
-            dt: spec.dt,
-            pairs: model.pairs.iter().map(|p| penalties(p.young)).collect(),
-            linear: model.linear.iter().map(|l| penalties(l.young)).collect(),
-            isa: Isa::detect(),
-        };
+        let settings = Settings { dt: spec.dt, method: spec.method, isa: Isa::detect() };
         Ok(Self {
             settings,
             before: vec![0.0; state.velocity.len()],
@@ -79,6 +79,7 @@ impl Run {
             history: History::default(),
             record: Record { every: 1, energy_every: 10, snapshots: Vec::new() },
             outcome: Outcome::Running,
+            watch: Watch::default(),
             displacement_limit: spec.displacement_limit,
             momentum: vec![[0.0; 2]; model.bodies.len()],
             model,
@@ -109,8 +110,16 @@ impl Run {
                 return;
             }
             if let Err(error) = self.one_step(last && i + 1 == steps) {
-                self.outcome = Outcome::Diverged(error.to_string());
+                self.fail(error.kind(), &error.to_string());
             }
+        }
+    }
+
+    /// How the run stands, and whether contact has made energy on the way.
+    pub fn conclusion(&self) -> Outcome {
+        match &self.outcome {
+            Outcome::Running if self.watch.passed(TOLERANCE) => self.judge().outcome(Kind::EnergyMade, ""),
+            outcome => outcome.clone(),
         }
     }
 
@@ -124,6 +133,7 @@ impl Run {
         step(&self.model, &self.settings, &mut self.state, &mut self.work)?;
 
         let (rows, forces, dt) = (&self.work.rows, &self.work.forces, self.settings.dt);
+        self.watch.step(&self.model, dt, rows, forces, Lane::new(&self.state.velocity, self.state.lanes, 0));
         let keep = self.record.every > 0 && (last || n.is_multiple_of(self.record.every));
         self.history.observe(&self.model, n, dt, rows, forces, keep);
         if snapshot {
@@ -132,30 +142,37 @@ impl Run {
         }
         if sample {
             let e = energy::sample(&self.model, dt, &self.state, &self.before, rows, forces, &mut self.momentum);
-            self.history.sample(n, e, &self.momentum);
-            self.judge(n, e.max_displacement);
+            self.watch.sample(e.kinetic + e.strain);
+            self.history.sample(n, e, self.watch.damping_loss, &self.momentum);
+            self.look_at(e.max_displacement, last || n.is_multiple_of(SHAPE_EVERY * self.record.energy_every));
+        }
+        if self.watch.passed(RUNAWAY) {
+            self.fail(Kind::EnergyMade, "energy ran away");
         }
         Ok(())
     }
 
-    fn judge(&mut self, n: u64, displacement: f64) {
-        let penalties = self.settings.pairs.iter().chain(&self.settings.linear);
-        let limits = Limits {
-            time: n as f64 * self.settings.dt,
-            dt: self.settings.dt,
-            element_omega: self.model.element_omega(),
-            row_omega: self.history.peaks.row_omega2.sqrt(),
-            // Without a mass penalty the frequencies of mesh and rows add up; with one, the larger of them and R rules.
-            mass_penalty: penalties.clone().all(|p| p.alpha_s == 0.0 || p.alpha_m > 0.0),
-            ratio: penalties.map(|p| p.alpha_s / p.alpha_m).fold(0.0, f64::max),
-            energy_ratio: self.history.energy_ratio(),
-        };
+    fn look_at(&mut self, displacement: f64, shapes: bool) {
         if !displacement.is_finite() {
-            self.outcome = Outcome::Diverged(limits.diverged());
+            self.fail(Kind::NotFinite, "displacement is not finite");
         } else if displacement > self.displacement_limit {
-            let reason = limits.passed_displacement(displacement, self.displacement_limit);
-            self.outcome = Outcome::DisplacementLimit(reason);
+            let (found, limit) = (short(displacement), short(self.displacement_limit));
+            self.fail(Kind::DisplacementLimit, &format!("displacement {found} m passed the limit {limit} m"));
+        } else if let Some(element) = shapes.then(|| self.model.inverted(&self.state.other)).flatten() {
+            self.fail(Kind::ElementInverted, &format!("{element} has no area left"));
         }
+    }
+
+    fn fail(&mut self, kind: Kind, seen: &str) {
+        if self.outcome == Outcome::Running {
+            self.outcome = self.judge().outcome(kind, seen);
+        }
+    }
+
+    fn judge(&self) -> Judge<'_> {
+        let dt = self.settings.dt;
+        let time = self.state.steps.saturating_sub(1) as f64 * dt;
+        Judge { model: &self.model, watch: &self.watch, time, dt, ratio: self.settings.method.mass.ratio(dt) }
     }
 }
 

@@ -5,20 +5,19 @@ use crate::error::Result;
 use crate::lane::{Lane, add_to};
 use crate::mass_block::{MassBlock, RowForces};
 use crate::model::Model;
-use crate::row::{Penalties, Row};
+use crate::penalty::{Known, Method};
+use crate::row::Row;
 use crate::state::State;
 use crate::stiffness::Isa;
 use crate::stiffness::kernel::{Pass, advance};
 
-/// What a run needs besides the model: time step, penalties of each pair, instruction set.
+/// What a run needs besides the model: time step, penalty method, instruction set.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Time step (s).
     pub dt: f64,
-    /// Penalties of the rows of each contact pair.
-    pub pairs: Vec<Penalties>,
-    /// Penalties of the rows that are always active.
-    pub linear: Vec<Penalties>,
+    /// Penalty method.
+    pub method: Method,
     /// Instruction set of the kernel.
     pub isa: Isa,
 }
@@ -60,11 +59,15 @@ pub fn row_forces(model: &Model, settings: &Settings, state: &State, work: &mut 
     let v = Lane::new(&state.velocity, state.lanes, 0);
     work.search.keep(&model.pairs, &model.points, u)?;
     work.rows.clear();
-    for (i, (linear, penalties)) in model.linear.iter().zip(&settings.linear).enumerate() {
-        work.rows.push(linear.row((model.contacts.len() + i) as u32, u, *penalties));
+    for (i, linear) in model.linear.iter().enumerate() {
+        work.rows.push(linear.row((model.contacts.len() + i) as u32, u));
     }
-    for ((pair, candidates), penalties) in model.pairs.iter().zip(&work.search.candidates).zip(&settings.pairs) {
-        pair.rows(candidates, &model.points, u, *penalties, &mut work.rows);
+    for (pair, candidates) in model.pairs.iter().zip(&work.search.candidates) {
+        pair.rows(candidates, &model.points, u, &mut work.rows);
+    }
+    for row in &mut work.rows {
+        let known = Known { row, inverse_mass: &model.inverse_mass, dt: settings.dt };
+        row.penalties = settings.method.penalties(known);
     }
     work.block.forces(model, &work.rows, settings.dt, u, v, &mut work.forces)
 }

@@ -22,8 +22,8 @@ fn rows_agree_with_fresh_searches(scene: Scene, velocity: [f64; 2], steps: usize
         let mut fresh = Search::new(&model.pairs);
         fresh.keep(&model.pairs, &model.points, u).unwrap();
         let mut rows = Vec::new();
-        for ((pair, candidates), p) in model.pairs.iter().zip(&fresh.candidates).zip(&run.settings.pairs) {
-            pair.rows(candidates, &model.points, u, *p, &mut rows);
+        for (pair, candidates) in model.pairs.iter().zip(&fresh.candidates) {
+            pair.rows(candidates, &model.points, u, &mut rows);
         }
         let describe = |rows: &[bipenalty::row::Row]| -> Seen {
             rows.iter().map(|row| (row.entries().collect(), row.gap)).collect()

@@ -8,9 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::to_python;
+use crate::method::MethodIn;
 use crate::model::Model;
 use crate::observations;
-use crate::run::{MethodIn, spec};
+use crate::run::spec;
 
 /// Runs that share a model and its initial state.
 #[pyclass(frozen, module = "bipenalty._core")]

@@ -1,10 +1,9 @@
 //! Checks of the core, so that Python objects can be refused where they are made.
 
-use bipenalty::penalty::Method;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
-use crate::run::MethodIn;
+use crate::method::MethodIn;
 use crate::scene::Elastic;
 
 /// Raises InputError unless the constants of a material are within their bounds.
@@ -16,5 +15,5 @@ pub fn check_elastic(py: Python<'_>, object: &str, material: Elastic) -> PyResul
 /// Raises InputError unless the parameters of a penalty method are within their bounds.
 #[pyfunction]
 pub fn check_method(py: Python<'_>, object: &str, method: MethodIn) -> PyResult<()> {
-    Method::from(method).check(object).map_err(|e| to_python(py, &e))
+    method.0.check(object).map_err(|e| to_python(py, &e))
 }

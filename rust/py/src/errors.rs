@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 pub fn to_python(py: Python<'_>, error: &Error) -> PyErr {
     let name = match error {
         Error::Input(_) => "InputError",
-        Error::Run(_) => "RunError",
+        Error::Run(..) => "RunError",
     };
     let exception = || py.import("bipenalty.errors")?.getattr(name)?.call1((error.to_string(),));
     exception().map_or_else(|other| other, PyErr::from_value)

@@ -5,6 +5,7 @@ mod batch;
 mod checks;
 mod errors;
 mod mesh;
+mod method;
 mod model;
 mod observations;
 mod run;

@@ -1,6 +1,7 @@
 //! The history of a run as a dictionary of arrays.
 
 use bipenalty::energy::Energies;
+use bipenalty::outcome::Outcome;
 use bipenalty::run::Run;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -44,7 +45,10 @@ pub fn summary<'py>(py: Python<'py>, run: &Run) -> PyResult<Bound<'py, PyDict>> 
     dict.set_item("peak_force", peaks.force)?;
     dict.set_item("impulse", peaks.impulse)?;
     dict.set_item("energy_ratio", run.history.energy_ratio())?;
-    dict.set_item("outcome", run.outcome.name())?;
-    dict.set_item("reason", run.outcome.reason())?;
+    let conclusion = run.conclusion();
+    dict.set_item("outcome", conclusion.name())?;
+    dict.set_item("reason", conclusion.reason())?;
+    dict.set_item("stopped", run.outcome != Outcome::Running)?;
+    dict.set_item("energy_made", if run.watch.reference > 0.0 { run.watch.gain() } else { 0.0 })?;
     Ok(dict)
 }

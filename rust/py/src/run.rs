@@ -1,7 +1,6 @@
 //! One run: step, look, go on.
 
 use bipenalty::history::Record;
-use bipenalty::penalty::{Damping, Mass, Method};
 use bipenalty::run::RunSpec;
 use numpy::ndarray::ArrayView2;
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -9,37 +8,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::to_python;
+use crate::method::MethodIn;
 use crate::model::Model;
 use crate::observations;
-
-/// A penalty method as Python passes it on.
-#[derive(FromPyObject)]
-pub struct MethodIn {
-    ps: f64,
-    #[pyo3(attribute("R"))]
-    ratio: Option<f64>,
-    #[pyo3(attribute("R_safety"))]
-    ratio_safety: Option<f64>,
-    #[pyo3(attribute("D"))]
-    factor: Option<f64>,
-    zeta: Option<f64>,
-}
-
-impl From<MethodIn> for Method {
-    fn from(m: MethodIn) -> Self {
-        let mass = match (m.ratio, m.ratio_safety) {
-            (Some(ratio), _) => Mass::Ratio(ratio),
-            (None, Some(safety)) => Mass::RatioFromStep(safety),
-            (None, None) => Mass::None,
-        };
-        let damping = match (m.factor, m.zeta) {
-            (Some(factor), _) => Damping::Factor(factor),
-            (None, Some(zeta)) => Damping::Ratio(zeta),
-            (None, None) => Damping::None,
-        };
-        Self { ps: m.ps, mass, damping }
-    }
-}
 
 /// A state over a model with its history.
 #[pyclass(module = "bipenalty._core")]
@@ -57,7 +28,7 @@ pub fn spec(
     displacement_limit: Option<f64>,
 ) -> RunSpec {
     RunSpec {
-        method: method.into(),
+        method: method.0,
         dt,
         allow_unstable,
         velocity: velocity.as_array().iter().copied().collect(),

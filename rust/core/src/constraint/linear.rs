@@ -1,7 +1,7 @@
 //! Rows that never change: a linear constraint G u + g_0 = 0 that is always active.
 
 use crate::lane::Lane;
-use crate::row::{Penalties, Row};
+use crate::row::{Behind, Row};
 
 /// A linear row over at most four nodes, active whatever the sign of its gap.
 #[derive(Debug, Clone)]
@@ -16,8 +16,9 @@ pub struct Linear {
 
 impl Linear {
     /// The row at a displacement.
-    pub fn row(&self, source: u32, displacement: Lane, penalties: Penalties) -> Row {
-        let mut row = Row::new(&self.entries, source, 0.0, penalties);
+    pub fn row(&self, source: u32, displacement: Lane) -> Row {
+        let behind = Behind { young: self.young, ..Behind::default() };
+        let mut row = Row::new(&self.entries, source, 0.0, behind);
         row.gap = self.offset + row.along(displacement);
         row
     }

@@ -96,7 +96,7 @@ impl Near<'_> {
         let at = |node| position(node, self.points, self.displacement);
         let (n1, n2) = (unit_normal(at(secondary.before), p), unit_normal(p, at(secondary.after)));
         let normal = [n1[0] + n2[0], n1[1] + n2[1]];
-        let reach = depth(self.surface) + self.skin;
+        let reach = self.surface.reach() + self.skin;
         let (low, high) = (Vector::new(p[0] - reach, p[1] - reach), Vector::new(p[0] + reach, p[1] + reach));
         let around = BvhNode::leaf(Aabb::new(low, high), 0);
         near.clear();
@@ -106,9 +106,4 @@ impl Near<'_> {
         }
         near.sort_unstable_by_key(|c| c.segment);
     }
-}
-
-/// Deepest penetration (m) that the search still sees.
-fn depth(surface: &Surface) -> f64 {
-    (0.5 * surface.extent).max(2.0 * surface.mean_length)
 }

@@ -1,10 +1,12 @@
 //! A contact pair: secondary nodes against a primary surface; the narrow phase and its rows.
 
+use std::collections::HashMap;
+
 use super::candidates::{Candidate, Candidates};
 use super::gap::{Gap, Location, Projection, dot, from_to, gap_at_vertex, gap_inside, is_at_end, long_normal, project};
 use super::surface::{Surface, position};
 use crate::lane::Lane;
-use crate::row::{Penalties, Row};
+use crate::row::{Behind, Row};
 
 /// A secondary node with its neighbours along its own surface.
 #[derive(Debug, Clone, Copy)]
@@ -50,24 +52,19 @@ pub struct Pair {
     pub primary: Primary,
     /// Young's modulus of the stiffer body (N/m^2).
     pub young: f64,
+    /// `K A^2/V` (N/m) of the elements behind the secondary nodes, kept where the primary has no elements.
+    pub node_stiffness: HashMap<u32, f64>,
 }
 
 impl Pair {
     /// Rows of the candidates that penetrate: gap below zero.
-    pub fn rows(
-        &self,
-        candidates: &Candidates,
-        points: &[[f64; 2]],
-        displacement: Lane,
-        penalties: Penalties,
-        rows: &mut Vec<Row>,
-    ) {
+    pub fn rows(&self, candidates: &Candidates, points: &[[f64; 2]], displacement: Lane, rows: &mut Vec<Row>) {
         match &self.primary {
             Primary::HalfPlane { point, normal } => {
                 for (node, _) in candidates.iter() {
                     let gap = dot(from_to(*point, position(node, points, displacement)), *normal);
                     if gap < 0.0 {
-                        rows.push(Row::new(&[(node, *normal)], self.contact, gap, penalties));
+                        rows.push(Row::new(&[(node, *normal)], self.contact, gap, self.behind(node, None)));
                     }
                 }
             }
@@ -75,14 +72,14 @@ impl Pair {
                 for (node, segments) in candidates.iter() {
                     let p = position(node, points, displacement);
                     if let Some((segment, gap)) = penetration(surface, segments, p, points, displacement) {
-                        rows.push(self.row(surface, node, segment, gap, penalties));
+                        rows.push(self.row(surface, node, segment, gap));
                     }
                 }
             }
         }
     }
 
-    fn row(&self, surface: &Surface, node: u32, segment: u32, gap: Gap, penalties: Penalties) -> Row {
+    fn row(&self, surface: &Surface, node: u32, segment: u32, gap: Gap) -> Row {
         let mut entries = [(node, gap.normal), (0, [0.0; 2]), (0, [0.0; 2])];
         let mut count = 1;
         for (vertex, w) in surface.segments[segment as usize].ends.into_iter().zip(gap.weights) {
@@ -91,7 +88,14 @@ impl Pair {
                 count += 1;
             }
         }
-        Row::new(&entries[..count], self.contact, gap.gap, penalties)
+        Row::new(&entries[..count], self.contact, gap.gap, self.behind(node, Some((surface, segment))))
+    }
+
+    /// What is behind a row: the element of the primary segment, or the secondary node's own at a rigid obstacle.
+    fn behind(&self, node: u32, primary: Option<(&Surface, u32)>) -> Behind {
+        let segment = primary.and_then(|(surface, segment)| surface.element_stiffness.get(segment as usize).copied());
+        let own = || self.node_stiffness.get(&node).copied().unwrap_or(0.0);
+        Behind { young: self.young, element_stiffness: segment.unwrap_or_else(own) }
     }
 }
 
@@ -177,6 +181,15 @@ pub(super) fn signed_gap(
 }
 
 impl Pair {
+    /// Deepest penetration (m) that the search still sees: half the smaller extent of the primary, two segments at
+    /// least; a half-plane has no far side.
+    pub fn reach(&self) -> f64 {
+        match &self.primary {
+            Primary::Surface(surface) => surface.reach(),
+            Primary::HalfPlane { .. } => f64::INFINITY,
+        }
+    }
+
     /// Mean segment length of the primary surface; of the secondary one against a half-plane (m).
     pub fn segment_length(&self) -> f64 {
         match &self.primary {

@@ -8,8 +8,9 @@ use super::candidates::{Candidate, Candidates, Near};
 use super::gap::{dot, from_to};
 use super::pair::{Pair, Primary};
 use super::surface::{Surface, Vertices, position};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, short};
 use crate::lane::Lane;
+use crate::outcome::Kind;
 
 /// Skin over mean segment length: half a segment of travel between searches.
 const SKIN: f64 = 0.5;
@@ -67,16 +68,14 @@ impl Search {
     /// # Errors
     /// A surface position that is not finite.
     pub fn keep(&mut self, pairs: &[Pair], points: &[[f64; 2]], displacement: Lane) -> Result<()> {
-        if pairs.is_empty() || (self.count > 0 && !self.used_up(pairs, displacement)) {
+        if pairs.is_empty() || (self.count > 0 && !self.used_up(pairs, displacement)?) {
             return Ok(());
         }
         for watched in &mut self.watched {
             for (then, &node) in watched.then.iter_mut().zip(&watched.nodes) {
                 *then = displacement.at(node);
                 if !(then[0].is_finite() && then[1].is_finite()) {
-                    return Err(Error::Run(format!(
-                        "node {node}: displacement is not finite; the run has diverged: reduce dt or the penalties"
-                    )));
+                    return Err(Error::Run(Kind::NotFinite, format!("displacement of node {node} is not finite")));
                 }
             }
         }
@@ -87,12 +86,13 @@ impl Search {
         Ok(())
     }
 
-    /// True when the two surfaces of a pair may have come closer by more than its skin. NaN counts as used up.
-    fn used_up(&self, pairs: &[Pair], displacement: Lane) -> bool {
+    /// True when the two surfaces of a pair may have come closer by more than its skin.
+    ///
+    /// # Errors
+    /// A step in which they moved so far that a node may have crossed the primary body unseen.
+    fn used_up(&self, pairs: &[Pair], displacement: Lane) -> Result<bool> {
         let moved = |body: Option<u32>| {
-            let Some(watched) = self.watched.iter().find(|w| Some(w.body) == body) else {
-                return 0.0;
-            };
+            let Some(watched) = self.watched.iter().find(|w| Some(w.body) == body) else { return 0.0 };
             let distance2 = |(then, &node): (&[f64; 2], &u32)| {
                 let d = from_to(*then, displacement.at(node));
                 dot(d, d)
@@ -101,10 +101,20 @@ impl Search {
             let larger = |a: f64, b: f64| if b <= a { a } else { b };
             watched.then.iter().zip(&watched.nodes).map(distance2).fold(0.0, larger).sqrt()
         };
-        pairs.iter().any(|pair| {
-            let travel = moved(Some(pair.secondary_body)) + moved(pair.primary_body);
-            travel.is_nan() || travel > skin(pair)
-        })
+        let mut used_up = false;
+        for pair in pairs {
+            let (travel, skin) = (moved(Some(pair.secondary_body)) + moved(pair.primary_body), skin(pair));
+            // The skin was not used up a step ago, so all that is beyond it was covered in this one.
+            let (step, most) = (travel - skin, pair.reach());
+            if step > most {
+                let (step, most) = (short(step), short(most));
+                let seen =
+                    format!("surfaces moved {step} m in one step, contact follows {most} m: reduce dt or speed;");
+                return Err(Error::Run(Kind::ContactMissed, seen));
+            }
+            used_up |= travel.is_nan() || travel > skin;
+        }
+        Ok(used_up)
     }
 
     fn search(&mut self, index: usize, pair: &Pair, points: &[[f64; 2]], displacement: Lane) {

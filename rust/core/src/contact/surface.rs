@@ -31,6 +31,8 @@ pub struct Surface {
     pub vertices: Vertices,
     /// Segments.
     pub segments: Vec<Segment>,
+    /// `K A^2/V` (N/m) of the element behind each segment; empty for a rigid obstacle.
+    pub element_stiffness: Vec<f64>,
     /// Mean length of the segments in the reference configuration (m).
     pub mean_length: f64,
     /// Smaller extent of the bounding box in the reference configuration (m).
@@ -67,7 +69,12 @@ impl Surface {
             values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
         });
         let (extent, size) = (width.min(height), width.max(height));
-        Self { vertices, segments, mean_length, extent, size }
+        Self { vertices, segments, element_stiffness: Vec::new(), mean_length, extent, size }
+    }
+
+    /// Deepest penetration (m) that the search still sees.
+    pub fn reach(&self) -> f64 {
+        (0.5 * self.extent).max(2.0 * self.mean_length)
     }
 
     /// Number of vertices.

@@ -16,9 +16,9 @@ pub struct MassBlock {
 }
 
 impl MassBlock {
-    /// Row forces lambda (N per m of depth, compression positive) and gap rates G v_n (m/s) of the active rows.
+    /// Row forces lambda (N per m of depth, compression positive) of the active rows.
     ///
-    /// Rows without mass or damping penalty need no block: `lambda = -A_s g`, and their rates are left at zero.
+    /// Rows without mass or damping penalty need no block: `lambda = -A_s g`.
     ///
     /// # Errors
     /// A block that is not positive definite, which only non-finite input can bring about.
@@ -32,19 +32,17 @@ impl MassBlock {
         out: &mut RowForces,
     ) -> Result<()> {
         out.lambda.clear();
-        out.rate.clear();
+        out.before.clear();
+        out.before.extend(rows.iter().map(|row| row.along(velocity)));
         if rows.iter().all(|row| row.penalties.inertia(dt) == 0.0) {
             out.lambda.extend(rows.iter().map(|row| -row.penalties.alpha_s * row.gap));
-            out.rate.resize(rows.len(), 0.0);
             return Ok(());
         }
         self.primal.solve(model, rows, dt, displacement, velocity)?;
-        for row in rows {
+        for (row, before) in rows.iter().zip(&out.before) {
             let p = &row.penalties;
-            let (before, acceleration) = (row.along(velocity), self.primal.along(row));
-            let force = p.alpha_s * row.gap + p.alpha_d * before + p.inertia(dt) * acceleration;
+            let force = p.alpha_s * row.gap + p.alpha_d * before + p.inertia(dt) * self.primal.along(row);
             out.lambda.push(-force);
-            out.rate.push(before + 0.5 * dt * acceleration);
         }
         Ok(())
     }
@@ -60,6 +58,6 @@ impl MassBlock {
 pub struct RowForces {
     /// Row force (N per m), compression positive.
     pub lambda: Vec<f64>,
-    /// Gap rate G v_n (m/s) at the full step; zero where no penalty needs it.
-    pub rate: Vec<f64>,
+    /// Gap rate G v_{n-1/2} (m/s) half a step before.
+    pub before: Vec<f64>,
 }

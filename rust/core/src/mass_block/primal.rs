@@ -16,6 +16,7 @@ use super::pattern::{NONE, Pattern, reserve_total};
 use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::model::Model;
+use crate::outcome::Kind;
 use crate::row::{MAX_NODES, Row};
 
 /// Pattern, its symbolic factorisation and the buffers of the numeric one; they grow and are never given back.
@@ -139,9 +140,8 @@ impl Primal {
         if let Some(memory) = &mut self.memory {
             let (factor, rows, start) = (&mut self.factor, &mut self.factor_row, &self.factor_start);
             let (stack, none) = (MemStack::new(memory), LltRegularization::default());
-            factorize_simplicial_numeric_llt_with_row_idx(factor, rows, start, tree, matrix, none, stack).map_err(
-                |_| Error::Run("mass block: not positive definite; the run has diverged: reduce dt".to_string()),
-            )?;
+            factorize_simplicial_numeric_llt_with_row_idx(factor, rows, start, tree, matrix, none, stack)
+                .map_err(|_| Error::Run(Kind::NotFinite, "mass block is not positive definite".to_string()))?;
         }
         let n = self.solution.len();
         let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &self.factor_start, None, &self.factor_row);

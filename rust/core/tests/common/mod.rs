@@ -7,7 +7,7 @@ use bipenalty::history::History;
 use bipenalty::material::{Material, Plane};
 use bipenalty::mesh::Mesh;
 use bipenalty::model::Model;
-use bipenalty::penalty::{Damping, Mass, Method};
+use bipenalty::penalty::{Damping, Mass, Method, Stiffness};
 use bipenalty::run::{Run, RunSpec};
 use bipenalty::scene::{BodySpec, ContactSpec, Obstacle, Scene};
 
@@ -66,7 +66,7 @@ pub fn wall() -> (String, Obstacle) {
 }
 
 pub fn method(ps: f64, mass: Mass, damping: Damping) -> Method {
-    Method { ps, mass, damping }
+    Method { stiffness: Stiffness::Factor(ps), kappa: f64::INFINITY, mass, damping }
 }
 
 pub fn bipenalty(ps: f64) -> Method {
