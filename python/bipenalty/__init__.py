@@ -16,12 +16,14 @@ from bipenalty import io, mesh
 from bipenalty.body import Body
 from bipenalty.constraints import Support
 from bipenalty.contact import Contact
+from bipenalty.critical_step import CriticalStep
 from bipenalty.errors import BipenaltyError, InputError, RunError
 from bipenalty.materials import LinearElastic
 from bipenalty.mesh import Mesh
-from bipenalty.methods import Bipenalty, Stiffness
+from bipenalty.methods import Bipenalty, ElementStiffness, NodalMassStiffness, Stiffness
 from bipenalty.model import Model
 from bipenalty.obstacles import HalfPlane, Polyline
+from bipenalty.restitution import restitution, restitution_map
 from bipenalty.result import Result
 from bipenalty.result_dataset import package_version
 from bipenalty.scene import Scene
@@ -34,11 +36,14 @@ __all__ = [
     "Bipenalty",
     "Body",
     "Contact",
+    "CriticalStep",
+    "ElementStiffness",
     "HalfPlane",
     "InputError",
     "LinearElastic",
     "Mesh",
     "Model",
+    "NodalMassStiffness",
     "Polyline",
     "Result",
     "RunError",
@@ -47,5 +52,7 @@ __all__ = [
     "Support",
     "io",
     "mesh",
+    "restitution",
+    "restitution_map",
     "sweep",
 ]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from bipenalty import _core, checks, progress
+from bipenalty.critical_step import CriticalStep, critical_alpha_s, time_step
 from bipenalty.errors import InputError, RunError
 from bipenalty.lower import lower
 from bipenalty.methods import Bipenalty, Method
@@ -17,7 +18,6 @@ from bipenalty.methods.method import penalty_ratio
 from bipenalty.result import Result
 from bipenalty.result_dataset import run_dataset
 from bipenalty.scene import Scene
-from bipenalty.time_step import time_step
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -32,9 +32,9 @@ class Model:
     ----------
     scene : what there is.
     method : how contact is enforced.
-    dt : "element" for `safety` times the element bound, or seconds.
-    safety : share of the element bound, in (0, 1].
-    allow_unstable : accept a dt above the element bound.
+    dt : "element" or "assembled" for `safety` times that limit of the mesh, or seconds.
+    safety : share of the limit, in (0, 1]; 0.5 of "element" and 0.98 of "assembled" unless given.
+    allow_unstable : accept a dt above the mesh's limit.
 
     Raises
     ------
@@ -56,7 +56,7 @@ class Model:
         scene: Scene,
         method: Method | None = None,
         dt: str | float = "element",
-        safety: float = 0.5,
+        safety: float | None = None,
         allow_unstable: bool = False,
     ) -> None:
         self.scene = scene
@@ -71,7 +71,7 @@ class Model:
         )
         self._core = lower(scene)
         self.critical_dt: float = self._core.critical_dt
-        self.dt = time_step(self.critical_dt, dt, safety)
+        self.dt = time_step(self._core, dt, safety)
         start = (scene.velocity, scene.displacement)
         self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start)
         self._seconds = 0.0
@@ -90,6 +90,28 @@ class Model:
     def R(self) -> float:
         """Penalty ratio, 1/s^2; infinite without a mass penalty."""
         return penalty_ratio(self.method, self.dt)
+
+    def critical_step(self) -> CriticalStep:
+        """Limits of the time step: elements, assembled matrix, and the rows active in the last step."""
+        mesh = self._core.assembled_critical_dt()
+        rows = self._run.active_limits()[0] if self._run.rows else mesh
+        return CriticalStep(self.critical_dt, mesh, min(mesh, rows), self.dt)
+
+    def critical_ps(self, dt: float | None = None) -> float:
+        """Stiffness penalty factor up to which the stiffness method is stable at a time step, -.
+
+        Parameters
+        ----------
+        dt : s; the model's own unless given.
+
+        With rows active in the last step it speaks of those; before any, of the worst single row that the two
+        lightest surface nodes can make. A fixed active set is stable below it (see `critical_alpha_s`).
+        """
+        rows = self._run.active_limits()[1] if self._run.rows else self._core.worst_inverse_mass()
+        step = self.dt if dt is None else checks.number("critical_ps", "dt", dt)
+        checks.within("critical_ps", "dt", step, 0 < step < math.inf, "> 0 and finite", "give seconds")
+        stiffest = max(body.material.young for body in self.scene.bodies)
+        return critical_alpha_s(self._core.assembled_critical_dt(), rows, step) / stiffest
 
     @property
     def displacement(self) -> FloatArray:

@@ -11,12 +11,12 @@ import numpy as np
 import xarray as xr
 
 from bipenalty import _core, checks, progress
+from bipenalty.critical_step import time_step
 from bipenalty.lower import lower
 from bipenalty.methods import Method
 from bipenalty.model import SLICE
 from bipenalty.result_dataset import method_attributes, package_version
 from bipenalty.scene import Scene
-from bipenalty.time_step import time_step
 
 #: name: (unit, long name) of what every run of a sweep leaves behind.
 SUMMARY = {
@@ -37,7 +37,7 @@ def sweep(
     t_end: float,
     *,
     dt: str | float = "element",
-    safety: float = 0.5,
+    safety: float | None = None,
     allow_unstable: bool = False,
     displacement_limit: float | None = None,
     histories: bool = True,
@@ -84,7 +84,7 @@ def sweep(
     end = checks.number("sweep", "t_end", t_end)
     checks.within("sweep", "t_end", end, 0 < end < math.inf, "> 0 and finite", "give the time to run to")
     core = lower(scene)
-    step = time_step(core.critical_dt, dt, safety)
+    step = time_step(core, dt, safety)
     n = max(1, math.ceil(end / step - 1e-9))
     limit = None if displacement_limit is None else checks.number("sweep", "displacement_limit", displacement_limit)
     batch = _core.Batch(

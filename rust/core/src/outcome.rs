@@ -85,7 +85,7 @@ impl Judge<'_> {
             (Kind::SpectralInstability, format!("omega dt = {omega} of the penalty ratio, above 2; lower R to 4/dt^2"))
         } else if self.ratio.is_infinite() && gained && mesh.hypot(row) > 2.0 {
             (Kind::SpectralInstability, self.rows_too_fast(mesh, row))
-        } else if mesh > 2.0 && !gained && kind != Kind::ElementInverted {
+        } else if mesh > 2.0 && !gained && self.watch.grown() {
             let bodies = self.model.bodies.iter().max_by(|a, b| a.element_omega.total_cmp(&b.element_omega));
             let (name, omega) = (bodies.map_or("", |b| &b.name), short(mesh));
             let why = format!("omega dt = {omega} of the elements of \"{name}\" is above 2; reduce dt");

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use bipenalty::critical_step::element_bound;
+use bipenalty::critical_step::rows::worst_inverse_mass;
+use bipenalty::critical_step::{assembled_bound, element_bound};
 use bipenalty::scene::Scene;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -42,6 +43,16 @@ impl Model {
     #[getter]
     fn critical_dt(&self) -> f64 {
         element_bound(&self.inner)
+    }
+
+    /// Critical time step of the assembled matrix (s), from an upper bound of its largest frequency.
+    fn assembled_critical_dt(&self, py: Python<'_>) -> f64 {
+        py.detach(|| assembled_bound(&self.inner))
+    }
+
+    /// Largest G M^-1 G' (1/kg) that a single contact row can have.
+    fn worst_inverse_mass(&self) -> f64 {
+        worst_inverse_mass(&self.inner)
     }
 
     /// Reference coordinates of all nodes, (n, 2) in m.

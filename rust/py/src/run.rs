@@ -1,5 +1,6 @@
 //! One run: step, look, go on.
 
+use bipenalty::critical_step::rows;
 use bipenalty::history::Record;
 use bipenalty::run::RunSpec;
 use numpy::ndarray::ArrayView2;
@@ -110,6 +111,15 @@ impl Run {
     fn rows(&self) -> Vec<(f64, f64)> {
         let forces = &self.inner.work.forces.lambda;
         self.inner.work.rows.iter().zip(forces).map(|(row, lambda)| (row.gap, *lambda)).collect()
+    }
+
+    /// Critical time step (s) with the rows of the last step active for good, and their largest G M^-1 G' (1/kg).
+    fn active_limits(&self, py: Python<'_>) -> (f64, f64) {
+        let (model, rows) = (&self.inner.model, &self.inner.work.rows);
+        py.detach(|| {
+            let omega2 = rows::largest_omega2(model, rows).upper;
+            (2.0 / omega2.sqrt(), rows::largest_inverse_mass(model, rows))
+        })
     }
 
     /// How often the broad phase has searched.
