@@ -23,7 +23,7 @@ from bipenalty.mesh import Mesh
 from bipenalty.methods import Bipenalty, ElementStiffness, NodalMassStiffness, Stiffness
 from bipenalty.model import Model
 from bipenalty.obstacles import HalfPlane, Polyline
-from bipenalty.restitution import restitution, restitution_map
+from bipenalty.row_restitution import restitution, restitution_map
 from bipenalty.result import Result
 from bipenalty.result_dataset import package_version
 from bipenalty.scene import Scene

@@ -45,6 +45,7 @@ def restitution(theta: Any, s: Any, zeta: Any) -> Floats:
 
     Example
     -------
+    >>> from bipenalty import restitution
     >>> float(restitution(0.3, 1.0, 1.0))
     0.0
     >>> bool(restitution(0.1, np.sqrt(3.6), 0.0) > 1)
