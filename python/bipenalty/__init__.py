@@ -12,7 +12,7 @@ A `Scene` says what there is, a `Model` advances it, a `Result` holds what was s
 'finished'
 """
 
-from bipenalty import io, mesh
+from bipenalty import io, mesh, plot
 from bipenalty.body import Body
 from bipenalty.constraints import Support
 from bipenalty.contact import Contact
@@ -47,5 +47,6 @@ __all__ = [
     "Support",
     "io",
     "mesh",
+    "plot",
     "sweep",
 ]
