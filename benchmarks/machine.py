@@ -5,9 +5,10 @@ import platform
 import subprocess
 from pathlib import Path
 
-import bipenalty as bp
 import numpy as np
 import scipy
+
+import bipenalty as bp
 from bipenalty import _core
 
 

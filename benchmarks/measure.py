@@ -1,14 +1,15 @@
 """Interleaved measurement: every round takes each case in turn, so that what slows the machine slows all alike."""
 
+import random
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
-import bipenalty as bp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scenes import Case
+from timed_scenes import Case
+
+import bipenalty as bp
 
 Array = NDArray[np.float64]
 
@@ -20,23 +21,28 @@ class Plan:
     Parameters
     ----------
     segments : edges on the rim of each cylinder.
-    rounds : of the single steps; every model is built anew in each, since its place in memory alone makes 10 %.
+    rounds : of the single steps.
+    places : models of each case in a round, of which the fastest counts: where a model happens to lie in memory
+        alone makes 10 %. They are built anew in each round, in another order.
     before : steps before the measurement, so that contact is well under way.
-    pieces, steps : a round times so many pieces of so many steps of each case, piece by piece in turn.
-    warm : untimed steps before each piece, which bring the case back into the caches.
+    pieces, steps : a round times so many pieces of so many steps of each model, piece by piece in turn.
+    warm : untimed steps before each piece, which bring the model back into the caches.
     script_rounds : of the comparison with the script.
+    judged : whether verdicts on the expectations mean anything.
     """
 
     segments: int = 116
     rounds: int = 41
+    places: int = 3
     before: int = 200
     pieces: int = 16
     steps: int = 20
     warm: int = 3
     script_rounds: int = 9
+    judged: bool = True
 
 
-QUICK = Plan(segments=24, rounds=3, before=20, pieces=2, steps=10, warm=1, script_rounds=2)
+QUICK = Plan(24, rounds=3, places=2, before=20, pieces=2, steps=10, warm=1, script_rounds=2, judged=False)
 
 
 @dataclass(frozen=True)
@@ -60,38 +66,13 @@ def spread(samples: ArrayLike) -> Spread:
     2.0
     """
     values = np.asarray(samples, dtype=float)
-    five = [float(q) for q in np.percentile(values, [0, 25, 50, 75, 100])]
-    return Spread(*five, error=1.57 * (five[3] - five[1]) / float(np.sqrt(values.size)))
+    least, lower, median, upper, largest = (float(q) for q in np.percentile(values, [0, 25, 50, 75, 100]))
+    return Spread(least, lower, median, upper, largest, 1.57 * (upper - lower) / values.size**0.5)
 
 
 def ratio(samples: Array, reference: Array) -> Spread:
     """The ratio taken round by round, in which the machine was the same for both."""
     return spread(samples / reference)
-
-
-@dataclass(frozen=True)
-class Claim:
-    """What is expected of a ratio, with what was measured; its median decides."""
-
-    text: str
-    measured: Spread
-    least: float | None = None
-    most: float | None = None
-
-    @property
-    def met(self) -> bool:
-        """Whether the median is within its bounds."""
-        low = self.least is None or self.measured.median >= self.least
-        return low and (self.most is None or self.measured.median <= self.most)
-
-    @property
-    def expected(self) -> str:
-        """The bound in words."""
-        return f"at least {self.least:g}" if self.least is not None else f"at most {self.most:g}"
-
-    def as_dict(self) -> dict[str, Any]:
-        """For the JSON file."""
-        return asdict(self) | {"met": self.met}
 
 
 @dataclass(frozen=True)
@@ -112,28 +93,29 @@ class Steps:
 
 def time_steps(cases: Sequence[Case], plan: Plan) -> Steps:
     """Time single steps of all cases, one thread, in the thread's own processor time."""
-    names = [case.name for case in cases]
-    rounds = [_round(cases, plan) for _ in range(plan.rounds)]
+    rounds = [_round(cases, plan, number) for number in range(plan.rounds)]
     seconds = np.array([spent for spent, _ in rounds])
-    share = float(np.median([busy for _, busy in rounds]))
-    rows = [_active_rows(case, plan) for case in cases]
-    columns = {name: seconds[:, i] for i, name in enumerate(names)}
-    return Steps(columns, share, dict(zip(names, rows, strict=True)))
+    rows = {case.name: _active_rows(case, plan) for case in cases}
+    columns = {case.name: seconds[:, i] for i, case in enumerate(cases)}
+    return Steps(columns, float(np.median([share for _, share in rounds])), rows)
 
 
-def _round(cases: Sequence[Case], plan: Plan) -> tuple[list[float], float]:
+def _round(cases: Sequence[Case], plan: Plan, number: int) -> tuple[list[float], float]:
     """Seconds per step of each case, and the share of a core that the thread had."""
-    models = [_started(case, plan) for case in cases]
-    spent, wall = [0.0] * len(cases), 0.0
-    for i in _turns(len(cases), plan.pieces):
-        models[i].step(plan.warm)
+    order = [i for i in range(len(cases)) for _ in range(plan.places)]
+    random.Random(number).shuffle(order)
+    models = [_started(cases[i], plan) for i in order]
+    spent, wall = [0.0] * len(models), 0.0
+    for turn in _turns(len(models), plan.pieces):
+        model, steps = models[turn], plan.steps * cases[order[turn]].steps
+        model.step(plan.warm)
         clock, start = time.perf_counter(), time.thread_time()
-        models[i].step(plan.steps * cases[i].steps)
-        spent[i] += time.thread_time() - start
+        model.step(steps)
+        spent[turn] += (time.thread_time() - start) / (steps * plan.pieces)
         wall += time.perf_counter() - clock
-    taken = plan.pieces * plan.steps
-    share = sum(spent) / wall
-    return [seconds / (taken * case.steps) for seconds, case in zip(spent, cases, strict=True)], share
+    fastest = [min(t for t, j in zip(spent, order, strict=True) if j == i) for i in range(len(cases))]
+    busy = sum(t * plan.steps * cases[i].steps * plan.pieces for t, i in zip(spent, order, strict=True))
+    return fastest, busy / wall
 
 
 def _turns(count: int, pieces: int) -> Iterator[int]:
@@ -145,14 +127,16 @@ def _turns(count: int, pieces: int) -> Iterator[int]:
 def _started(case: Case, plan: Plan) -> bp.Model:
     """A new model, `plan.before` steps into its run."""
     model = bp.Model(case.scene, case.method)
-    never = {} if case.recorded else {"every": 10**9, "energy_every": 10**9}
-    model.run((plan.before - 0.5) * model.dt, show_progress=False, **never)  # what it records stays set for step()
+    every, energy_every = (1, 10) if case.recorded else (10**9, 10**9)
+    before = (plan.before - 0.5) * model.dt
+    model.run(before, every=every, energy_every=energy_every, show_progress=False)  # step() goes on recording so
     return model
 
 
 def _active_rows(case: Case, plan: Plan) -> float:
     """Mean number of active rows over the window that is timed."""
+    if not case.recorded:
+        return 0.0
     model = _started(case, plan)
     model.step(plan.pieces * (plan.steps + plan.warm))
-    data = model.result().dataset
-    return float(data["active_rows"].values[plan.before :].mean()) if case.recorded else 0.0
+    return float(model.result().dataset["active_rows"].values[plan.before :].mean())

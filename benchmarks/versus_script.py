@@ -4,11 +4,12 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
-import bipenalty as bp
 import numpy as np
 import scipy_script
 from measure import Array, Plan
-from scenes import DENSITY, FAR, POISSON, YOUNG, collision
+from timed_scenes import DENSITY, FAR, POISSON, YOUNG, collision
+
+import bipenalty as bp
 
 SEARCHES = ("brute", "lists")
 T_END = 0.18  # s
@@ -62,8 +63,8 @@ def _duel(name: str, plan: Plan, gap: float) -> Duel:
             loop[search].append([result.dataset.attrs["seconds"], script["seconds"]])
             call[search].append([ours, theirs])
             difference[search] = apart(result.dataset["contact_force"].values, script["contact_force"])
-    arrays = [{search: np.array(pairs) for search, pairs in times.items()} for times in (loop, call)]
-    return Duel(name, model.steps, model.dt, *arrays, difference)
+    loops, calls = ({search: np.array(pairs) for search, pairs in times.items()} for times in (loop, call))
+    return Duel(name, model.steps, model.dt, loops, calls, difference)
 
 
 def prepared(scene: bp.Scene) -> dict[str, Any]:

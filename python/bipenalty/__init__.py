@@ -12,7 +12,7 @@ A `Scene` says what there is, a `Model` advances it, a `Result` holds what was s
 'finished'
 """
 
-from bipenalty import io, mesh
+from bipenalty import io, mesh, plot
 from bipenalty.body import Body
 from bipenalty.constraints import Support
 from bipenalty.contact import Contact
@@ -54,5 +54,6 @@ __all__ = [
     "mesh",
     "restitution",
     "restitution_map",
+    "plot",
     "sweep",
 ]

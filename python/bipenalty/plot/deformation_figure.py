@@ -58,7 +58,8 @@ def deformation(
     columns = min(3, len(places))
     rows = -(-len(places) // columns)
     width, height = window[1] - window[0], window[3] - window[2]
-    drawn = style.own_figure(figure, *(size or (style.WIDTH, 0.5 + 0.25 * bool(title) + rows * (0.28 + 2.72 * height / width))))
+    tall = 0.5 + 0.25 * bool(title) + rows * (0.28 + 2.72 * height / width)
+    drawn = style.own_figure(figure, *(size or (style.WIDTH, tall)))
     panels = drawn.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     instants = data["snapshot_time"].values
     decimals = max(0, 2 - math.floor(math.log10(instants.max()))) if instants.max() > 0 else 0

@@ -13,7 +13,7 @@ from bipenalty import checks
 from bipenalty.plot import style
 
 #: From the smallest p_s to the largest, which is the noisiest and lies at the back.
-COLOURS = ("#000000", "#D55E00", "#0072B2", "#B9C4CF", "#CC79A7", "#E69F00")
+COLOURS = ("#000000", "#D55E00", "#0072B2", "#A9B7C4", "#CC79A7", "#E69F00")
 METHODS = ("stiffness", "bipenalty", "bipenalty (D = 0.0001)")
 
 
@@ -57,11 +57,11 @@ def force(
     for i, (ax, label) in enumerate(zip(panels, chosen, strict=True)):
         highest = _panel(ax, data.isel(run=np.flatnonzero(data["method"].values == label)), label, ps)
         ax.set_title(f"({chr(ord('a') + i)}) {label}: {highest}", loc="left", fontsize=11)
-        ax.set_ylabel("contact force (N/m)")
+        ax.set_ylabel("total contact force (N/m)")
     panels[-1].set(xlabel="time (s)", xlim=(0, t_end or float(data["time"].max())))
     if limits is not None:
         panels[-1].set_ylim(*limits)
-    panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.13), ncols=len(ps), frameon=False, borderaxespad=0)
+    panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.03), ncols=len(ps), frameon=False, borderaxespad=0)
     if title:
         drawn.suptitle(title, x=0.01, ha="left")
     return style.whole(drawn)
@@ -82,10 +82,16 @@ def _panel(ax: Axes, runs: xr.Dataset, label: str, ps: Sequence[float]) -> str:
             "choose among the sweep's factors",
         )
         run = runs.isel(run=int(found[0]))
-        failed = ", where it fails" if bool(run["failed"]) else ""
-        peaks.append((float(run["peak_force"]), f"peak {float(run['peak_force']):.3g} N/m at $p_s$ = {factor:g}{failed}"))
-        ax.plot(run["time"], run["contact_force"], color=COLOURS[i % len(COLOURS)], linewidth=1.2,
-                zorder=3 - i / len(ps), label=f"$p_s$ = {factor:g}")
+        peak, failed = float(run["peak_force"]), ", where it fails" if bool(run["failed"]) else ""
+        peaks.append((peak, f"peak {peak:.3g} N/m at $p_s$ = {factor:g}{failed}"))
+        ax.plot(
+            run["time"],
+            run["contact_force"],
+            color=COLOURS[i % len(COLOURS)],
+            linewidth=1.2,
+            zorder=3 - i / len(ps),
+            label=f"$p_s$ = {factor:g}",
+        )
     ax.axhline(0, color="0.6", linewidth=0.7, zorder=1)
     style.grid(ax)
     return max(peaks)[1]

@@ -35,8 +35,8 @@ def bodies(ax: Axes, place: Floats, parts: Sequence[Sequence[Ints]], rims: Seque
     for b, (elements, rim) in enumerate(zip(parts, rims, strict=True)):
         fill, dark = FILLS[b % len(FILLS)], RIMS[b % len(RIMS)]
         for corners in elements:
-            width = 0.35 if fine else 0.0
-            ax.add_collection(PolyCollection(list(place[corners]), facecolor=fill, edgecolor=dark, linewidth=width))
+            edge = dark if fine else fill
+            ax.add_collection(PolyCollection(list(place[corners]), facecolor=fill, edgecolor=edge, linewidth=0.35))
         ax.add_collection(LineCollection(list(place[rim]), color=dark, linewidth=1.6 if fine else 0.8))
 
 
@@ -48,8 +48,16 @@ def names(ax: Axes, place: Floats, parts: Sequence[Sequence[Ints]], words: Seque
         seen = (x > x0) & (x < x1) & (y > y0) & (y < y1)
         if seen.any():
             colour = RIMS[b % len(RIMS)]
-            ax.text(x[seen].mean(), y[seen].mean(), word, color=colour, weight="bold", ha="center", va="center",
-                    bbox={"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": "none", "alpha": 0.85})
+            ax.text(
+                x[seen].mean(),
+                y[seen].mean(),
+                word,
+                color=colour,
+                weight="bold",
+                ha="center",
+                va="center",
+                bbox={"boxstyle": "round,pad=0.2", "facecolor": "white", "edgecolor": "none", "alpha": 0.85},
+            )
 
 
 def box(points: Floats, margin: float) -> Window:

@@ -15,6 +15,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from bipenalty.plot import style
 
 ROW = 0.055  # height of one method's row on the strip of failed runs, of the axes
+STRIP = "0.94"  # its grey
 
 
 def penetration(
@@ -64,16 +65,24 @@ def penetration(
         ax.plot(ps, depth, label=label, **look)
         if failed.any():
             first = int(np.argmax(failed))
-            end = (ps[first - 1], depth[first - 1]) if first else None
+            end = (ps[first - 1], depth[first - 1]) if first and depth[first - 1] > 0 else None
             failures[label] = (ps[failed], style.cause(str(runs["reason"].values[first])), end)
     ax.set(xscale="log", yscale="log", xlabel="stiffness penalty factor $p_s$ (–)", ylabel="deepest penetration (m)")
     style.grid(ax)
     ax.xaxis.set_major_locator(LogLocator(numticks=20))
     ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.set_xlim(data["ps"].values[data["ps"].values > 0].min() / 1.25, data["ps"].values.max() * 1.25)
+    factors = data["ps"].values[data["ps"].values > 0]
+    if len(factors):
+        ax.set_xlim(factors.min() / 1.25, factors.max() * 1.25)
+    if all(np.isnan(line.get_ydata()).all() for line in ax.lines):  # nothing to take the limits from
+        ax.set_ylim(1e-6, 1)
     _strip(ax, failures, style.looks(chosen))
     ax.set_title(_claim(data, chosen, failures) if title is None else title, loc="left")
-    ax.legend(loc="lower left", frameon=False, handlelength=2.6, fontsize=9, labelspacing=0.3)
+    damped = "damping factor D in s" if any("D =" in label for label in chosen) else None
+    legend = ax.legend(
+        title=damped, title_fontsize=9, loc="lower left", frameon=False, handlelength=2.6, fontsize=9, labelspacing=0.3
+    )
+    legend.set(alignment="left")
     return style.whole(ax)
 
 
@@ -82,17 +91,19 @@ def _strip(ax: Axes, failures: dict[str, Any], looks: dict[str, dict[str, Any]])
     if not failures:
         return
     low, high = ax.get_ylim()
-    share = 1 - ROW * (len(failures) + 0.5)  # what is left of the axes for the lines
+    height = min(ROW, 0.5 / len(failures))
+    share = 1 - height * (len(failures) + 0.5)  # what is left of the axes for the lines
     ax.set_ylim(low, low * (high / low) ** (1 / share))
     across = ax.get_xaxis_transform()
-    ax.add_patch(Rectangle((0, share), 1, 1 - share, transform=ax.transAxes, color="0.94", linewidth=0, zorder=0))
+    ax.add_patch(Rectangle((0, share), 1, 1 - share, transform=ax.transAxes, color=STRIP, linewidth=0, zorder=1.5))
     left, right = np.log(ax.get_xlim())
-    for row, (label, (ps, cause, end)) in enumerate(failures.items()):
-        colour, y = looks[label]["color"], 1 - ROW * (row + 0.75)
+    latest_first = sorted(failures.items(), key=lambda item: -float(item[1][0][0]))  # then no dots cross a text
+    for row, (label, (ps, cause, end)) in enumerate(latest_first):
+        colour, y = looks[label]["color"], 1 - height * (row + 0.75)
         ax.plot(ps, np.full(len(ps), y), "x", color=colour, markersize=6, markeredgewidth=1.6, transform=across)
         if end is not None:
-            height = np.log(end[1] / low) / np.log(high / low) * share
-            ax.plot([end[0], ps[0]], [height, y], ":", color=colour, linewidth=1.2, transform=across)
+            dots = {"arrowstyle": "-", "linestyle": ":", "color": colour, "shrinkA": 3, "shrinkB": 4}
+            ax.annotate("", (ps[0], y), xycoords=across, xytext=end, textcoords="data", arrowprops=dots)
         before = np.log(ps[0]) - left > right - np.log(ps[-1])
         ax.annotate(
             f"{label}: {cause}",
@@ -102,6 +113,7 @@ def _strip(ax: Axes, failures: dict[str, Any], looks: dict[str, dict[str, Any]])
             textcoords="offset points",
             color=colour,
             fontsize=9,
+            bbox={"facecolor": STRIP, "edgecolor": "none", "pad": 0.5},
             ha="right" if before else "left",
             va="center",
         )
