@@ -10,8 +10,18 @@ from versus_script import EQUAL, Duel
 #: Rows of the table of single steps, and of the table of what a scene costs.
 SINGLE = (scenes.NOTHING, scenes.APART, scenes.STIFFNESS, scenes.BIPENALTY)
 PARTS = (
-    scenes.NOTHING, scenes.AGAIN, scenes.UNSEEN, scenes.APART, scenes.STIFFNESS, scenes.STIFFNESS_DAMPED,
-    scenes.BIPENALTY, scenes.BIPENALTY_DAMPED, scenes.WALL_FAR, scenes.WALL, scenes.SUPPORT, scenes.LOAD,
+    scenes.NOTHING,
+    scenes.AGAIN,
+    scenes.UNSEEN,
+    scenes.APART,
+    scenes.STIFFNESS,
+    scenes.STIFFNESS_DAMPED,
+    scenes.BIPENALTY,
+    scenes.BIPENALTY_DAMPED,
+    scenes.WALL_FAR,
+    scenes.WALL,
+    scenes.SUPPORT,
+    scenes.LOAD,
 )
 
 
@@ -74,11 +84,25 @@ def against_script(duels: Sequence[Duel]) -> str:
             call, difference = duel.call[search], duel.difference[search]
             name = f"{duel.scene}, {duel.steps} steps, {search}"
             same = "no contact" if difference != difference else f"{difference:.0e}"
-            rows.append([name, milliseconds(loop[:, 0]), milliseconds(loop[:, 1]),
-                         with_error(ratio(loop[:, 1], loop[:, 0])), with_error(ratio(call[:, 1], call[:, 0])), same])
+            rows.append(
+                [
+                    name,
+                    milliseconds(loop[:, 0]),
+                    milliseconds(loop[:, 1]),
+                    with_error(ratio(loop[:, 1], loop[:, 0])),
+                    with_error(ratio(call[:, 1], call[:, 0])),
+                    same,
+                ]
+            )
             unequal += [name] if difference > EQUAL else []
-    head = ["scene, search of the script", "package, ms", "script, ms", "ratio of the loops", "of the whole calls",
-            "difference of forces"]
+    head = [
+        "scene, search of the script",
+        "package, ms",
+        "script, ms",
+        "ratio of the loops",
+        "of the whole calls",
+        "difference of forces",
+    ]
     verdict = f"NOT COMPARABLE: {'; '.join(unequal)}." if unequal else "The results are equal."
     return (
         f"## Against the SciPy script\n\n{table(head, rows)}\n\nWall time, least / median, stiffness penalty p_s = 1 "
@@ -111,18 +135,20 @@ def parts(steps: Steps, nodes: int) -> str:
 
 def expectations(claims: Sequence[Claim], judged: bool) -> str:
     """Each with its verdict."""
+
     def verdict(claim: Claim) -> str:
         return claim.verdict if judged else "not judged"
 
     rows = [[c.text, f"expected {c.expected}", with_error(c.measured), verdict(c)] for c in claims]
     return (
         f"## Expectations\n\n{table(['ratio', '', 'measured', ''], rows)}\n\n"
-        "Where the ratio is an upper bound of what is claimed, one beyond the bound proves nothing: \"not shown\"."
+        'Where the ratio is an upper bound of what is claimed, one beyond the bound proves nothing: "not shown".'
     )
 
 
-def whole(about: dict[str, str], plan: Plan, steps: Steps, nodes: int, duels: Sequence[Duel],
-          claims: Sequence[Claim]) -> str:
+def whole(
+    about: dict[str, str], plan: Plan, steps: Steps, nodes: int, duels: Sequence[Duel], claims: Sequence[Claim]
+) -> str:
     """The report."""
     note = (
         "Each ratio is taken round by round; median of the rounds ± half-width of its 95 % interval (1.57 IQR/sqrt(n), "

@@ -1,7 +1,7 @@
 """The measurements behind the performance claims: writes out/bench.json and out/bench.md.
 
-    python benchmarks/run.py            about a minute
-    python benchmarks/run.py --quick    a coarse mesh and few rounds, to see that it works
+python benchmarks/run.py            about a minute
+python benchmarks/run.py --quick    a coarse mesh and few rounds, to see that it works
 """
 
 import argparse

@@ -39,7 +39,7 @@ def collide() -> bp.Result:
         contacts=[bp.Contact("hammer", "anvil")],
         constraints=[bp.Support("anvil", on="base")],
     )
-    return bp.Model(scene, bp.Bipenalty(ps=1.0)).run(T_END, snapshots=PICTURES)
+    return bp.Model(scene, bp.Bipenalty()).run(T_END, snapshots=PICTURES)
 
 
 def total_energy(run: xr.Dataset) -> xr.DataArray:

@@ -40,8 +40,8 @@ def mirrored(mesh: bp.Mesh) -> bp.Mesh:
 def renumbered(mesh: bp.Mesh, order: Any, elements: Any) -> bp.Mesh:
     """The mesh with node `order[i]` in place i and its elements in the order `elements` (quads or triangles)."""
     place = order.argsort()
-    cells = [place[kind][elements] if len(kind) else None for kind in (mesh.triangles, mesh.quads)]
-    return bp.Mesh(mesh.points[order], *cells, name=mesh.name)
+    triangles, quads = (place[kind][elements] if len(kind) else kind for kind in (mesh.triangles, mesh.quads))
+    return bp.Mesh(mesh.points[order], triangles, quads, name=mesh.name)
 
 
 # The thrown bar of Doyen, Ern, Piperno (2011): length, Young's modulus, density, speed and gap at the start.

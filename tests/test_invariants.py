@@ -17,7 +17,11 @@ import scenes
 
 Floats = NDArray[np.float64]
 
-METHODS = [bp.Stiffness(0.5, D=2e-4), bp.Bipenalty(1.0), bp.Bipenalty(3.0, zeta=1.0)]
+METHODS: list[Any] = [
+    bp.Stiffness(0.5, D=2e-4),
+    bp.Bipenalty(1.0, rule="published"),
+    bp.Bipenalty(3.0, zeta=1.0, rule="published"),
+]
 STEPS, SAFETY = 400, 0.25
 
 #: relative to the largest displacement or force; measured: up to 8e-13
@@ -73,7 +77,7 @@ def test_momentum_by_steps() -> None:
 
 def test_momentum_is_the_impulse_of_the_obstacle() -> None:
     """Against a rigid wall the body's momentum changes by the impulse of the contact force, step by step."""
-    model = bp.Model(scenes.bar_and_wall(20), bp.Bipenalty(ps=0.5))
+    model = bp.Model(scenes.bar_and_wall(20), bp.Bipenalty(ps=0.5, rule="published"))
     result = model.run(2.0, energy_every=1)
     momentum = result.momentum.values[:, 0, 0]
     force = result.force_on.values[:, 0, 0]
@@ -195,7 +199,12 @@ def test_rigid_motion_gives_no_force(method: Any) -> None:
 def test_run_in_a_sweep_is_the_run_alone() -> None:
     """Exactly: every number of the history and of the summary, whatever runs beside it."""
     scene = scenes.small_cylinders()
-    methods = [*METHODS, bp.Stiffness(2.0), bp.Bipenalty(1e3), bp.Bipenalty(1.0, R=1e5)]
+    methods = [
+        *METHODS,
+        bp.Stiffness(2.0),
+        bp.Bipenalty(1e3, rule="published"),
+        bp.Bipenalty(1.0, R=1e5, rule="published"),
+    ]
     t_end = 0.1
     together = bp.sweep(scene, methods, t_end, threads=2)
     for i, method in enumerate(methods):

@@ -41,9 +41,7 @@ def test_what_is_found() -> None:
     assert mesh.boundaries["right"].tolist() == [[2, 5]]
     assert mesh.boundaries["floor"].tolist() == [[0, 1], [1, 2]]
     assert mesh.nodes_of("floor").tolist() == [0, 1, 2]
-    assert (
-        repr(mesh) == '<mesh "pair": 6 nodes, 2 triangles, 1 quads, 1 loops, boundaries: left, right, floor>'
-    )
+    assert repr(mesh) == '<mesh "pair": 6 nodes, 2 triangles, 1 quads, 1 loops, boundaries: left, right, floor>'
 
 
 def test_arrays_are_copies_and_read_only() -> None:
@@ -108,7 +106,7 @@ BAD_MESHES = [
         {"triangles": [[1.0, 2.0, 5.0]]},
         r"triangles has dtype float64, must be of integers; use astype\(int\)",
     ),
-    ({"triangles": [[1, 2, 6], [1, 5, 4]]}, r"triangle 0 node = 6, must be in 0\.\.6.*; number nodes from 0"),
+    ({"triangles": [[1, 2, 6], [1, 5, 4]]}, r"triangle 0 node = 6, must be from 0 to 5.*; number nodes from 0"),
     ({"triangles": [[1, 2, -1], [1, 5, 4]]}, r"-1, must be .*; number nodes from 0"),
     ({"triangles": [[1, 2, 2], [1, 5, 4]]}, r"triangle 0 = \[1, 2, 2\], must be of distinct nodes; remove"),
     (

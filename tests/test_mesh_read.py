@@ -34,12 +34,8 @@ def test_read_regions() -> None:
     assert area.sum() == pytest.approx(0.140 * 0.055 - math.pi * 0.012**2, rel=1e-3)
     np.testing.assert_allclose(anvil.points[anvil.nodes_of("base"), 1], -0.055)
     np.testing.assert_allclose(anvil.points[anvil.nodes_of("face"), 1], 0.0, atol=1e-12)
-    np.testing.assert_allclose(
-        np.linalg.norm(anvil.points[anvil.nodes_of("hole")] - [0, -0.03], axis=1), 0.012
-    )
-    np.testing.assert_allclose(
-        np.linalg.norm(hammer.points[hammer.nodes_of("nose")] - [0.012, 0.0125], axis=1), 0.012
-    )
+    np.testing.assert_allclose(np.linalg.norm(anvil.points[anvil.nodes_of("hole")] - [0, -0.03], axis=1), 0.012)
+    np.testing.assert_allclose(np.linalg.norm(hammer.points[hammer.nodes_of("nose")] - [0.012, 0.0125], axis=1), 0.012)
     both = bp.mesh.read(EXAMPLE)
     assert (both.name, len(both.loops)) == ("wedge_and_block", 3)
     assert both.n_nodes == hammer.n_nodes + anvil.n_nodes
@@ -75,9 +71,7 @@ def test_read_any_format(tmp_path: Path) -> None:
         mesh = bp.mesh.read(path)
         assert (mesh.name, mesh.triangles.tolist()) == ("one", [[0, 1, 2]])
         assert bp.mesh.regions(path) == []
-        with pytest.raises(
-            InputError, match=r'region = "all", but the file names no region; leave region out'
-        ):
+        with pytest.raises(InputError, match=r'region = "all", but the file names no region; leave region out'):
             bp.mesh.read(path, "all")
 
 
@@ -111,9 +105,7 @@ def test_bad_cells(tmp_path: Path) -> None:
 
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0, 0], [1, 0.5, 0], [0.5, 0.5, 0]])
     path = written("lines.vtu", [("line", [[0, 1], [1, 2]])], square)
-    with pytest.raises(
-        InputError, match=r"lines.vtu\": has 2 line, must have triangle or quad cells; mesh in 2-D"
-    ):
+    with pytest.raises(InputError, match=r"lines.vtu\": has 2 line, must have triangle or quad cells; mesh in 2-D"):
         bp.mesh.read(path)
     path = written("second.vtu", [("triangle6", [[0, 1, 2, 4, 5, 6]])], square)
     with pytest.raises(InputError, match=r"has 1 triangle6, must have .* only; .*Mesh.ElementOrder = 1"):

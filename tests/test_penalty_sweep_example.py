@@ -56,7 +56,7 @@ def test_table_has_every_run_with_every_digit(quick: tuple[Path, str]) -> None:
     assert [row["failed"] for row in rows] == [str(bool(failed)) for failed in dataset["failed"]]
     assert {row["D"] for row in rows} == {"0.0", "0.01", "0.001", "0.0001"}
     for row in rows:
-        assert (row["failed"] == "True") == (row["reason"] != "")
+        assert row["failed"] == "False" or row["reason"] != ""
 
 
 def test_dataset_has_the_histories(quick: tuple[Path, str]) -> None:
@@ -74,7 +74,7 @@ def test_dataset_has_the_histories(quick: tuple[Path, str]) -> None:
 
 def test_summary_names_cause_and_window(quick: tuple[Path, str]) -> None:
     lines = {line[:24].strip(): line for line in quick[1].splitlines()}
-    assert "time step instability" in lines["stiffness"]
+    assert "spectral instability" in lines["stiffness"]
     assert "10 to 10" in lines["bipenalty (D = 0.001)"]
     assert lines["bipenalty (D = 0.001)"].endswith("none")  # no failed run
 

@@ -71,8 +71,8 @@ class Study:
 @pytest.fixture(scope="module", params=[1, 2], ids=["1 pass", "2 passes"])
 def study(request: pytest.FixtureRequest) -> Study:
     """The runs of figure 6.16 with the thesis' limit of 1 m on the displacement."""
-    kinds = [bp.Stiffness, bp.Bipenalty, *(lambda ps, D=D: bp.Bipenalty(ps, D=D) for D in (1e-2, 1e-3, 1e-4))]
-    methods = [kind(ps) for kind in kinds for ps in PS]
+    methods: list[Any] = [bp.Stiffness(ps) for ps in PS] + [bp.Bipenalty(ps, rule="published") for ps in PS]
+    methods += [bp.Bipenalty(ps, D=D, rule="published") for D in (1e-2, 1e-3, 1e-4) for ps in PS]
     data = bp.sweep(scenes.cylinders(request.param), methods, T_END, displacement_limit=1.0)
     assert list(dict.fromkeys(data.method.values)) == METHODS
     return Study(data, request.param)
@@ -81,12 +81,14 @@ def study(request: pytest.FixtureRequest) -> Study:
 @pytest.fixture(scope="module")
 def run() -> Any:
     """The run of figure 6.15: bipenalty, p_s = 1, snapshots every 0.036 s."""
-    return bp.Model(scenes.cylinders(), bp.Bipenalty(ps=1.0)).run(T_END, snapshots=0.036 * np.arange(6))
+    return bp.Model(scenes.cylinders(), bp.Bipenalty(ps=1.0, rule="published")).run(
+        T_END, snapshots=0.036 * np.arange(6)
+    )
 
 
 def test_time_step_and_penalty_ratio() -> None:
     """The thesis: dt = 9.46e-5 s (safety factor 0.5), R = 4.02e8 1/s^2 (safety factor 0.9)."""
-    model = bp.Model(scenes.cylinders(), bp.Bipenalty(ps=1.0))
+    model = bp.Model(scenes.cylinders(), bp.Bipenalty(ps=1.0, rule="published"))
     assert model.dt == pytest.approx(9.46e-5, rel=5e-4)
     assert pytest.approx(4.02e8, rel=1e-3) == model.R
     assert pytest.approx(0.9 * 4 / model.dt**2, rel=1e-12) == model.R
@@ -102,9 +104,10 @@ def test_where_the_stiffness_penalty_fails(study: Study) -> None:
     assert failed[PS > 50].all()
     assert (np.abs(energy[PS < 2] - 1) < 1e-3).all()
     assert (energy[(PS > 15) & (PS < 50)] > 1.2).all()
+    assert (study.along(STIFFNESS, "outcome")[PS > 50] == "spectral instability").all()
     reasons = study.along(STIFFNESS, "reason")[PS > 50]
-    assert all("passed the limit 1 m" in reason and "time step instability" in reason for reason in reasons)
-    assert all("lower p_s or add a mass penalty" in reason for reason in reasons)
+    assert all("with the contact row" in r or "of the contact row" in r for r in reasons)
+    assert all("lower p_s, reduce dt or add a mass penalty" in reason for reason in reasons)
     begins = PS[energy > 1.01][0]
     assert 5 < begins < 15  # "1-10 ... is also the region where stiffness penalty formulations begin to fail"
 
@@ -121,13 +124,14 @@ def test_bipenalty_at_large_parameters(study: Study) -> None:
     assert (study.along(BIPENALTY, "max_penetration")[large] > 3 * smallest).all()
     failed = study.along(BIPENALTY, "failed")
     assert not failed[PS < 500].any()
-    assert failed[PS > 5000].all() if study.passes == 2 else not failed.any()
+    assert failed[PS > 5000].mean() > 0.5 if study.passes == 2 else not failed.any()
+    assert (study.along(BIPENALTY, "outcome")[large] == "energy made by contact").all()
     reasons = study.along(BIPENALTY, "reason")[failed]
-    assert all("energy made by contact switching" in reason and "add damping" in reason for reason in reasons)
+    assert all("is within 2: rows that open and close make it" in reason and "add damping" in reason for reason in reasons)
 
 
 def test_small_parameters_make_no_difference(study: Study) -> None:
-    """"For small parameters there is not much difference between the methods." Measured within 4.4 %."""
+    """ "For small parameters there is not much difference between the methods." Measured within 4.4 %."""
     small = PS < 0.15
     penetration = study.along(STIFFNESS, "max_penetration")[small]
     peak = study.along(STIFFNESS, "peak_force")[small]
@@ -138,15 +142,16 @@ def test_small_parameters_make_no_difference(study: Study) -> None:
 
 @pytest.mark.parametrize("method", METHODS)
 def test_penetration_is_smallest_for_factors_of_1_to_10(study: Study, method: str) -> None:
-    """"Penalty factors in the region of 1-10 appear to be optimal in terms of minimising penetration."
+    """ "Penalty factors in the region of 1-10 appear to be optimal in terms of minimising penetration."
 
-    Measured: best at p_s = 5.6 without damping, 10 to 32 with it; the best of 1-10 is at most 1.3 times that.
+    Measured: best at p_s = 3 to 6 without damping, 6 to 18 with it; the best of 1-10 is at most 1.3 times that.
     """
-    penetration = study.along(method, "max_penetration")
+    # A run that failed early had no time to penetrate.
+    penetration = np.where(study.along(method, "failed"), np.inf, study.along(method, "max_penetration"))
     region = penetration[(PS > 0.99) & (PS < 10.1)]
     assert region.min() < 1.6 * penetration.min()
     assert (penetration[PS < 0.15] > 5 * region.min()).all()
-    ended = study.along(method, "finished") & (PS > 300)  # a run that failed early had no time to penetrate
+    ended = study.along(method, "finished").astype(bool) & (PS > 300)
     assert (penetration[ended] > 1.5 * region.min()).all()
     # Below it penetration goes down with p_s: the penalty is too soft.
     assert (np.diff(penetration[PS < 2]) < 0).all()
@@ -154,7 +159,7 @@ def test_penetration_is_smallest_for_factors_of_1_to_10(study: Study, method: st
 
 @pytest.mark.parametrize("method", DAMPED)
 def test_damping_has_no_catastrophic_failure(study: Study, method: str) -> None:
-    """"Although penetration does not tend to zero for large parameters, there is no catastrophic failure ...\""""
+    """ "Although penetration does not tend to zero for large parameters, there is no catastrophic failure ...\""""
     assert study.along(method, "finished").all()
     assert (study.along(method, "max_displacement") < 0.35).all()
     assert (study.along(method, "energy_ratio") < 4).all()  # measured: at most 1.1, two passes 2.2 (D = 0.0001)
@@ -191,7 +196,7 @@ def test_force_is_underestimated_at_a_hundredth(study: Study, method: str) -> No
 
 @pytest.mark.parametrize("method", METHODS)
 def test_force_converges_with_p_s(study: Study, method: str) -> None:
-    """"As the penalty factor is increased, the contact force converges, but oscillations also increase."
+    """ "As the penalty factor is increased, the contact force converges, but oscillations also increase."
 
     Measured error of the averaged force at p_s = 0.01, 0.1, 1: 0.34, 0.056, 0.01 (0.05 without damping).
     """
@@ -208,7 +213,7 @@ def test_force_converges_with_p_s(study: Study, method: str) -> None:
 
 
 def test_softer_cylinder_deforms_more(run: Any) -> None:
-    """"Larger deformations occur in the bottom cylinder due to its lower elastic modulus." Measured: 10 times."""
+    """ "Larger deformations occur in the bottom cylinder due to its lower elastic modulus." Measured: 10 times."""
     points, nodes = run.points.values, np.arange(len(run.points)) < len(run.points) // 2
 
     def deformation(u: Floats, of: NDArray[np.bool_]) -> float:
@@ -223,7 +228,7 @@ def test_softer_cylinder_deforms_more(run: Any) -> None:
 
 
 def test_bodies_slide_along_each_other(run: Any) -> None:
-    """"Due to the horizontal movement ... there is considerable sliding along the contact surface."
+    """ "Due to the horizontal movement ... there is considerable sliding along the contact surface."
 
     Measured at the lowest node of the top cylinder: 1.2 to 1.4 m/s and 0.17 m after 0.108 s.
     """

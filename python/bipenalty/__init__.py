@@ -20,12 +20,12 @@ from bipenalty.critical_step import CriticalStep
 from bipenalty.errors import BipenaltyError, InputError, RunError
 from bipenalty.materials import LinearElastic
 from bipenalty.mesh import Mesh
-from bipenalty.methods import Bipenalty, ElementStiffness, NodalMassStiffness, Stiffness
+from bipenalty.methods import Bipenalty, ElementStiffness, Method, NodalMassStiffness, Stiffness
 from bipenalty.model import Model
 from bipenalty.obstacles import HalfPlane, Polyline
-from bipenalty.row_restitution import restitution, restitution_map
 from bipenalty.result import Result
 from bipenalty.result_dataset import package_version
+from bipenalty.row_restitution import restitution, restitution_map
 from bipenalty.scene import Scene
 from bipenalty.sweep import sweep
 
@@ -42,6 +42,7 @@ __all__ = [
     "InputError",
     "LinearElastic",
     "Mesh",
+    "Method",
     "Model",
     "NodalMassStiffness",
     "Polyline",

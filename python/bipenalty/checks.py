@@ -32,11 +32,24 @@ def text(owner: str, name: str, value: Any) -> str:
     return str(value)
 
 
-def whole(owner: str, name: str, value: Any, least: int) -> int:
-    """`value` as an integer that is not below `least`."""
+def whole(owner: str, name: str, value: Any, least: int, most: int = 2**53) -> int:
+    """`value` as an integer from least to most."""
     integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-    within(owner, name, repr(value), integer and value >= least, f"a whole number >= {least}", "correct it")
+    known = {least + 1: f"{least} or {most}", 2**53: f"a whole number >= {least} (and <= 2^53)"}
+    bound = known.get(most, f"a whole number from {least} to {most}")
+    within(owner, name, repr(value), bool(integer) and least <= int(value) <= most, bound, "correct it")
     return int(value)
+
+
+def method(owner: str, name: str, value: Any) -> Any:
+    """`value` as a penalty method: an object, not its class."""
+    from bipenalty.methods.method import Method
+
+    ok = isinstance(value, Method) and not isinstance(value, type)
+    what = value.__name__ if isinstance(value, type) else type(value).__name__
+    kind = "the class " + what if isinstance(value, type) else what
+    within(owner, name, kind, ok, "a Stiffness or Bipenalty", "make one with Stiffness(ps) or Bipenalty(ps)")
+    return value
 
 
 def sequence(owner: str, name: str, value: Any) -> tuple[Any, ...]:

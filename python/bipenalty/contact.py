@@ -27,7 +27,7 @@ class Contact:
         checks.text("contact", "secondary", self.secondary)
         checks.text("contact", "primary", self.primary)
         owner = f'contact "{self.secondary}" on "{self.primary}"'
-        checks.within(owner, "passes", self.passes, self.passes in (1, 2), "1 or 2", "1 is the usual choice")
+        object.__setattr__(self, "passes", checks.whole(owner, "passes", self.passes, 1, 2))
         if self.overlap_tolerance is not None:
             tolerance = checks.number(owner, "overlap_tolerance", self.overlap_tolerance)
             object.__setattr__(self, "overlap_tolerance", tolerance)

@@ -60,15 +60,7 @@ class Model:
         allow_unstable: bool = False,
     ) -> None:
         self.scene = scene
-        self.method: Method = Bipenalty() if method is None else method
-        checks.within(
-            "model",
-            "method",
-            type(self.method).__name__,
-            isinstance(self.method, Method),
-            "a Stiffness or Bipenalty",
-            "make one with Stiffness(ps) or Bipenalty(ps)",
-        )
+        self.method: Method = checks.method("model", "method", Bipenalty() if method is None else method)
         self._core = lower(scene)
         self.critical_dt: float = self._core.critical_dt
         self.dt = time_step(self._core, dt, safety)
@@ -136,7 +128,8 @@ class Model:
         InputError : n is not a whole number >= 0.
         RunError : the state has diverged; the message says why.
         """
-        self._run.advance(checks.whole("step", "n", n, 0), False)
+        if self._advance(checks.whole("step", "n", n, 0), False, last=False):
+            raise KeyboardInterrupt
         if self._run.outcome != "running":
             raise RunError(f"{self._run.outcome}: {self._run.reason}", self.result())
 
@@ -169,7 +162,7 @@ class Model:
         """
         steps = self._steps_to(t_end)
         strides = checks.whole("run", "every", every, 1), checks.whole("run", "energy_every", energy_every, 1)
-        kept = sorted({self._nearest_step(t, t_end, steps) for t in snapshots})
+        kept = sorted({self._nearest_step(t, t_end, steps) for t in checks.sequence("run", "snapshots", snapshots)})
         limit = math.inf if displacement_limit is None else displacement_limit
         self._run.configure(*strides, kept, checks.number("run", "displacement_limit", limit), steps)
         interrupted = self._advance(steps, show_progress)
@@ -188,7 +181,11 @@ class Model:
             f"finite and after now ({self.time:g} s)",
             "give a later time",
         )
-        return max(1, math.ceil((end - self.time) / self.dt - 1e-9))
+        steps = (end - self.time) / self.dt
+        checks.within(
+            "run", "t_end", end, steps < 2**53, f"at most 2^53 steps of {self.dt:g} s away", "give a nearer time"
+        )
+        return max(1, math.ceil(steps - 1e-9))
 
     def _nearest_step(self, t: float, t_end: float, steps: int) -> int:
         when = checks.number("run", "snapshot", t)
@@ -202,15 +199,15 @@ class Model:
         )
         return min(round(when / self.dt), self.steps + steps - 1)
 
-    def _advance(self, steps: int, show: bool | None) -> bool:
-        """Work in slices short enough for Ctrl-C; true when interrupted."""
-        done, chunk, last = 0, 64, self.steps + steps
+    def _advance(self, steps: int, show: bool | None, last: bool = True) -> bool:
+        """Work in slices short enough for Ctrl-C; true when interrupted. The last step is sampled if `last`."""
+        done, chunk = 0, 64
         try:
             with progress.bar(steps, "step", "run", show) as bar:
                 while done < steps and self._run.outcome == "running":
                     n = min(chunk, steps - done)
                     start = time.perf_counter()
-                    self._run.advance(n, self.steps + n == last)
+                    self._run.advance(n, last and done + n == steps)
                     elapsed = time.perf_counter() - start
                     self._seconds += elapsed
                     done += n
@@ -222,7 +219,7 @@ class Model:
 
     def result(self, interrupted: bool = False) -> Result:
         """What has been observed so far."""
-        if self.steps == 0 and not interrupted:
+        if self.steps == 0 and not interrupted and self.outcome == "running":
             raise InputError("result: number of steps = 0, must be >= 1; step or run first")
         seen = self._run.observations()
         seen["seconds"] = self._seconds

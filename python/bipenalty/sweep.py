@@ -58,8 +58,9 @@ def sweep(
 
     Returns
     -------
-    Dataset over `run` (coordinates method, ps, R, D, zeta) with the peaks, `failed`, `outcome` and `reason`, and over
-    `run` and `time` the histories, NaN after an early end. Ctrl-C returns what there is; `finished` tells.
+    Dataset over `run` (coordinates method, ps, R, D, zeta) with the peaks, `outcome` and `reason`, `failed` (ended
+    before t_end by itself) and `finished` (got there, whatever its energy), and over `run` and `time` the histories,
+    NaN after an early end. Ctrl-C returns what there is.
 
     Example
     -------
@@ -70,21 +71,16 @@ def sweep(
     >>> bp.sweep(scene, [bp.Stiffness(1.0), bp.Bipenalty(1.0)], t_end=0.1).sizes["run"]
     2
     """
-    methods = list(methods)
-    for i, method in enumerate(methods):
-        checks.within(
-            "sweep",
-            f"methods[{i}]",
-            type(method).__name__,
-            isinstance(method, Method),
-            "a Stiffness or Bipenalty",
-            "make one with Stiffness(ps) or Bipenalty(ps)",
-        )
+    methods = [
+        checks.method("sweep", f"methods[{i}]", m) for i, m in enumerate(checks.sequence("sweep", "methods", methods))
+    ]
     checks.within("sweep", "number of methods", 0, len(methods) > 0, ">= 1", "give at least one method")
+    workers = os.cpu_count() or 1 if threads is None else checks.whole("sweep", "threads", threads, 1)
     end = checks.number("sweep", "t_end", t_end)
     checks.within("sweep", "t_end", end, 0 < end < math.inf, "> 0 and finite", "give the time to run to")
     core = lower(scene)
     step = time_step(core, dt, safety)
+    checks.within("sweep", "t_end", end, end / step < 2**53, f"at most 2^53 steps of {step:g} s", "give a nearer time")
     n = max(1, math.ceil(end / step - 1e-9))
     limit = None if displacement_limit is None else checks.number("sweep", "displacement_limit", displacement_limit)
     batch = _core.Batch(
@@ -97,7 +93,7 @@ def sweep(
         int(histories),
         10,
     )
-    interrupted = _work(batch, len(methods) * n * scene.n_nodes, threads or os.cpu_count() or 1, show_progress)
+    interrupted = _work(batch, len(methods) * n * scene.n_nodes, min(workers, len(methods)), show_progress)
     attributes = {
         "dt": step,
         "critical_dt": core.critical_dt,
@@ -129,7 +125,12 @@ def _dataset(
     histories: bool,
     attributes: dict[str, Any],
 ) -> xr.Dataset:
-    lost = dict.fromkeys(SUMMARY, math.nan) | {"outcome": "lost", "reason": "its thread died", "planned_steps": 0, "stopped": True}
+    lost = dict.fromkeys(SUMMARY, math.nan) | {
+        "outcome": "lost",
+        "reason": "its thread died",
+        "planned_steps": 0,
+        "stopped": True,
+    }
     runs = [lost if s is None else s for s in seen]
     ended = [_outcome(run) for run in runs]
     labels = [method_attributes(m, dt) for m in methods]
@@ -143,8 +144,12 @@ def _dataset(
     data["outcome"] = ("run", ended)
     data["reason"] = ("run", [str(run["reason"]) for run in runs])
     data["failed"] = ("run", np.array([bool(run["stopped"]) for run in runs]))
-    data["finished"] = ("run", np.array([e == "finished" for e in ended]))
+    data["finished"] = ("run", np.array([not run["stopped"] and run["steps"] >= run["planned_steps"] for run in runs]))
     if histories:
+        # As long as the longest run: one of them may have been stopped long before its end.
+        steps = min(
+            steps, max((1 + int(run["time_step"][-1]) for run in seen if run and len(run["time_step"])), default=0)
+        )
         coords["time"] = ("time", np.arange(steps) * dt, {"units": "s", "long_name": "time"})
         for name, unit in (("contact_force", "N/m"), ("penetration", "m")):
             values = np.full((len(runs), steps), np.nan)

@@ -17,8 +17,8 @@ class Bipenalty:
     ----------
     ps : stiffness penalty factor alpha_s / (E_max 1 m), -, >= 0, or "auto" for as stiff as `kappa` allows.
     rule : "critical" or "published".
-    kappa : cap alpha_s <= kappa m_e/dt^2 with m_e = 1/(G M^-1 G') the row's effective mass, -, > 0; None for no cap.
-        5 for the critical rule unless given, no cap for the published one.
+    kappa : cap alpha_s <= kappa m_e/dt^2 with m_e = 1/(G M^-1 G') the row's effective mass, -, > 0, infinite for no cap;
+        5 for the critical rule and no cap for the published one unless given.
     s2 : s^2 = R dt^2 of the critical rule, -, in (0, 2).
     R, R_safety : penalty ratio of the published rule, 1/s^2, > 0; R_safety * 4/dt^2 unless R is given.
     D, zeta : damping of the published rule: alpha_d = D alpha_s (s) or 2 zeta sqrt(alpha_s alpha_m) (-).
@@ -48,7 +48,7 @@ class Bipenalty:
 
     ps: float | str = "auto"
     rule: str = "critical"
-    kappa: float | None = None  # type: ignore[assignment]
+    kappa: float | None = None
     s2: float | None = None
     R: float | None = None
     R_safety: float | None = None
@@ -68,14 +68,24 @@ class Bipenalty:
                       "given one at a time", "zeta = D sqrt(R) / 2: leave one out")  # fmt: skip
         if isinstance(self.ps, str):
             checks.within("Bipenalty", "ps", repr(self.ps), self.ps == "auto", 'a number or "auto"', "correct it")
-        if self.kappa is None:
-            object.__setattr__(self, "kappa", 5.0 if self.rule == "critical" else math.inf)
-        settle(self, *(() if self.ps == "auto" else ("ps",)), "kappa", "s2", "R", "R_safety", "D", "zeta")
+            capped = self.rule == "critical" or self.kappa is not None
+            checks.within(
+                "Bipenalty", "ps", repr(self.ps), capped, 'a number for rule="published"', "give ps, or kappa"
+            )
+        named = ("kappa", "s2", "R", "R_safety", "D", "zeta")
+        settle(self, *named) if self.ps == "auto" else settle(self, "ps", *named, required="ps")
 
     @property
     def stiffness_rule(self) -> Rule:
         """alpha_s = ps E_max, or what the cap allows."""
         return ("capped", 0.0) if isinstance(self.ps, str) else ("factor", self.ps)
+
+    @property
+    def kappa_rule(self) -> float:
+        """Cap on alpha_s; infinite for none."""
+        if self.kappa is not None:
+            return self.kappa
+        return 5.0 if self.rule == "critical" else math.inf
 
     @property
     def mass_rule(self) -> Rule:

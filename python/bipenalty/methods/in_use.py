@@ -15,7 +15,7 @@ class _Scaled:
     scale: float = 0.1
 
     def __post_init__(self) -> None:
-        settle(self, "scale")
+        settle(self, "scale", required="scale")
 
     @property
     def stiffness_rule(self) -> Rule:
@@ -23,7 +23,7 @@ class _Scaled:
         raise NotImplementedError
 
     @property
-    def kappa(self) -> float:
+    def kappa_rule(self) -> float:
         """No cap."""
         return math.inf
 

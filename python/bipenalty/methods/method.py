@@ -20,7 +20,7 @@ class Method(Protocol):
     @property
     def stiffness_rule(self) -> Rule: ...
     @property
-    def kappa(self) -> float: ...
+    def kappa_rule(self) -> float: ...
     @property
     def mass_rule(self) -> Rule: ...
     @property
@@ -29,11 +29,11 @@ class Method(Protocol):
     def label(self) -> str: ...
 
 
-def settle(method: Method, *names: str) -> None:
+def settle(method: Method, *names: str, required: str = "") -> None:
     """Make the named parameters floats, unless they are left out, and let the core check the bounds of all."""
     owner = type(method).__name__
     for name in names:
-        if getattr(method, name) is not None:
+        if name == required or getattr(method, name) is not None:
             object.__setattr__(method, name, checks.number(owner, name, getattr(method, name)))
     _core.check_method(owner, method)
 

@@ -34,7 +34,7 @@ class Stiffness:
     D: float | None = None
 
     def __post_init__(self) -> None:
-        settle(self, "ps", "D")
+        settle(self, "ps", "D", required="ps")
 
     @property
     def stiffness_rule(self) -> Rule:
@@ -42,7 +42,7 @@ class Stiffness:
         return "factor", self.ps
 
     @property
-    def kappa(self) -> float:
+    def kappa_rule(self) -> float:
         """No cap."""
         return math.inf
 

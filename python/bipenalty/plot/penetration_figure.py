@@ -66,7 +66,7 @@ def penetration(
         if failed.any():
             first = int(np.argmax(failed))
             end = (ps[first - 1], depth[first - 1]) if first and depth[first - 1] > 0 else None
-            failures[label] = (ps[failed], style.cause(str(runs["reason"].values[first])), end)
+            failures[label] = (ps[failed], str(runs["outcome"].values[first]), end)
     ax.set(xscale="log", yscale="log", xlabel="stiffness penalty factor $p_s$ (–)", ylabel="deepest penetration (m)")
     style.grid(ax)
     ax.xaxis.set_major_locator(LogLocator(numticks=20))

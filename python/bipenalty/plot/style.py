@@ -16,9 +16,6 @@ COLOURS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E
 #: Width of a figure, inches: 900 pixels at dpi = 100.
 WIDTH = 9.0
 
-#: How the reason of a failed run begins, and what a figure has room for.
-CAUSES = ("time step instability", "energy made by contact")
-
 
 def dataset(source: Any) -> xr.Dataset:
     """The dataset of a `Result`, or the dataset itself."""
@@ -67,16 +64,6 @@ def looks(methods: Iterable[str]) -> dict[str, dict[str, Any]]:
             lines = {"linestyle": (0, (4, 1.5)), "marker": "s", "markerfacecolor": "white"}
         found[label] = {"color": colour, "linewidth": 1.7, "markersize": 4.0, **lines}
     return found
-
-
-def cause(reason: str) -> str:
-    """The cause of a failure in a few words.
-
-    >>> cause("displacement 7 m passed the limit 1 m at t = 0.1 s; time step instability: omega dt = 3 is above 2")
-    'time step instability'
-    """
-    known = [words for words in CAUSES if words in reason]
-    return known[0] if known else reason.split(";")[0].split(":")[0]
 
 
 def own_figure(figure: Figure | SubFigure | None, width: float, height: float) -> Figure | SubFigure:

@@ -30,6 +30,16 @@ impl Energies {
     }
 }
 
+/// Kinetic energy (J/m) of the half-step velocity.
+pub fn moving(model: &Model, state: &State) -> f64 {
+    let v = Lane::new(&state.velocity, state.lanes, 0);
+    let one = |(node, m): (usize, &f64)| {
+        let [x, y] = v.at(node as u32);
+        0.5 * m * (x * x + y * y)
+    };
+    model.mass.iter().enumerate().map(one).sum()
+}
+
 /// Energies at t_n just after the step from t_n: `before` is v_{n-1/2}, the state holds v_{n+1/2} and, in `other`, u_n.
 ///
 /// The strain energy takes K u_n from the equation of motion, `K u = f + G' lambda - M (v+ - v-)/dt`, so that no
@@ -60,20 +70,27 @@ pub fn sample(
             largest = if size <= largest { largest } else { size };
         }
     }
-    let mut loads = 0.0;
+    let (mut loads, mut free_loads) = (0.0, 0.0);
     for (node, f) in model.load.iter().flatten().enumerate() {
-        let x = u.at(node as u32);
+        let (x, free) = (u.at(node as u32), model.free(node as u32, u.at(node as u32)));
         loads += f[0] * x[0] + f[1] * x[1];
+        free_loads += f[0] * free[0] + f[1] * free[1];
     }
     let mut contact = 0.0;
     for (row, lambda) in rows.iter().zip(&forces.lambda) {
         let rate = 0.5 * (row.along(old) + row.along(new));
         e.penalty += 0.5 * row.penalties.alpha_s * row.gap * row.gap;
         e.mass_penalty += 0.5 * row.penalties.alpha_m * rate * rate;
-        contact += lambda * row.along(u);
+        let work = |(node, g): (u32, [f64; 2])| {
+            let x = model.free(node, u.at(node));
+            g[0] * x[0] + g[1] * x[1]
+        };
+        contact += lambda * row.entries().map(work).sum::<f64>();
     }
+    // Where a support holds a displaced node there is no equation of motion: K u is computed there.
+    let held: f64 = model.held.iter().map(|&node| model.held_work(node, u)).sum();
     e.kinetic = 0.5 * kinetic;
-    e.strain = 0.5 * (contact + loads - work / dt);
+    e.strain = 0.5 * (contact + free_loads + held - work / dt);
     e.load_potential = -loads;
     e.max_displacement = largest.sqrt();
     e

@@ -40,6 +40,9 @@ pub struct Snapshot {
     pub velocity: Vec<f64>,
 }
 
+/// Steps that room is made for at once; a longer run makes more as it goes.
+const MOST_RESERVED: u64 = 1 << 20;
+
 /// Observations of one run.
 #[derive(Debug, Clone, Default)]
 pub struct History {
@@ -70,6 +73,8 @@ pub struct History {
 impl History {
     /// Makes room for a number of further steps, so that recording does not allocate.
     pub fn reserve(&mut self, model: &Model, record: &Record, steps: u64) {
+        // A run of unknown length, ended by hand, must not ask for all the memory it might come to need.
+        let steps = steps.min(MOST_RESERVED);
         let kept = steps.checked_div(record.every).map_or(0, |n| n as usize + 1);
         let sampled = (steps / record.energy_every.max(1)) as usize + 2;
         self.steps.reserve(kept);
@@ -129,10 +134,12 @@ impl History {
         peaks.displacement = if largest <= peaks.displacement { peaks.displacement } else { largest };
     }
 
-    /// Total energy of the last sample over that of the first; NaN before any sample or from no energy at all.
-    pub fn energy_ratio(&self) -> f64 {
+    /// Energy at the last sample over that at the first, with the work of the body forces taken out, in units of the
+    /// most energy (kinetic and strain) that has been there without contact's doing; NaN before any sample.
+    pub fn energy_ratio(&self, reference: f64) -> f64 {
         match (self.energies.first(), self.energies.last()) {
-            (Some(first), Some(last)) => last.total() / first.total(),
+            (Some(first), Some(last)) if reference > 0.0 => 1.0 + (last.total() - first.total()) / reference,
+            (Some(_), Some(_)) => 1.0,
             _ => f64::NAN,
         }
     }

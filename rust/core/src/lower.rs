@@ -43,9 +43,9 @@ pub(crate) fn add_contact(model: &mut Model, spec: &ContactSpec, obstacles: &[(S
     } else {
         let (other, primary) =
             find_body(&model.bodies, &spec.primary, &object).map_err(|e| with_obstacles(e, obstacles))?;
-        pairs.push(pair(model, contact, [body, body], secondary, surface(model, primary), Some(other)));
+        pairs.push(pair(model, contact, [body, body], secondary, Primary::Surface(model.surface(other)), Some(other)));
         if spec.passes == 2 {
-            pairs.push(pair(model, contact, [body, other], primary, surface(model, secondary), Some(body)));
+            pairs.push(pair(model, contact, [body, other], primary, Primary::Surface(model.surface(body)), Some(body)));
         }
     }
     let length = pairs.iter().map(Pair::segment_length).fold(f64::INFINITY, f64::min);
@@ -72,12 +72,7 @@ fn pair(
     primary: Primary,
     primary_body: Option<u32>,
 ) -> Pair {
-    let mut nodes = Vec::new();
-    for ring in &secondary.loops {
-        let n = ring.len();
-        let node = |i: usize| SurfaceNode { node: ring[i], before: ring[(i + n - 1) % n], after: ring[(i + 1) % n] };
-        nodes.extend((0..n).map(node));
-    }
+    let nodes = secondary.surface_nodes();
     let length = |s: &SurfaceNode| {
         let (a, b) = (model.points[s.node as usize], model.points[s.after as usize]);
         (b[0] - a[0]).hypot(b[1] - a[1])
@@ -111,15 +106,6 @@ fn node_stiffness(body: &Body) -> HashMap<u32, f64> {
         }
     }
     stiffness
-}
-
-fn surface(model: &Model, body: &Body) -> Primary {
-    let vertices: Vec<u32> = body.loops.iter().flatten().copied().collect();
-    let mut number = 0..;
-    let rings: Vec<Vec<u32>> = body.loops.iter().map(|ring| number.by_ref().take(ring.len()).collect()).collect();
-    let mut surface = Surface::new(&rings, true, &model.points, Vertices::Nodes(vertices));
-    surface.element_stiffness.clone_from(&body.edge_stiffness);
-    Primary::Surface(surface)
 }
 
 fn rigid(name: &str, obstacle: &Obstacle) -> Result<Primary> {

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use crate::boundary::{boundary_loops, edge_stiffness};
 use crate::constraint::linear::Linear;
-use crate::contact::Pair;
-use crate::contact::surface::position;
+use crate::contact::pair::SurfaceNode;
+use crate::contact::surface::{Vertices, position};
+use crate::contact::{Pair, Surface};
 use crate::element::signed_area;
 use crate::error::{Error, Result};
 use crate::lane::Lane;
@@ -35,6 +36,28 @@ pub struct Body {
     pub element_omega: f64,
 }
 
+impl Body {
+    /// Boundary nodes with their neighbours.
+    pub fn surface_nodes(&self) -> Vec<SurfaceNode> {
+        let of_ring = |ring: &Vec<u32>| -> Vec<SurfaceNode> {
+            let n = ring.len();
+            let node =
+                |i: usize| SurfaceNode { node: ring[i], before: ring[(i + n - 1) % n], after: ring[(i + 1) % n] };
+            (0..n).map(node).collect()
+        };
+        self.loops.iter().flat_map(of_ring).collect()
+    }
+
+    /// A point inside the body: the centre of its first element.
+    pub fn inner_point(&self, points: &[[f64; 2]], displacement: Lane) -> [f64; 2] {
+        let nodes = self.triangles.first().map(|t| t.as_slice()).or(self.quads.first().map(|q| q.as_slice()));
+        let nodes = nodes.unwrap_or_default();
+        let sum =
+            nodes.iter().map(|&n| position(n, points, displacement)).fold([0.0; 2], |s, x| [s[0] + x[0], s[1] + x[1]]);
+        sum.map(|s| s / nodes.len() as f64)
+    }
+}
+
 /// One contact of the scene, for reports.
 #[derive(Debug, Clone)]
 pub struct Contact {
@@ -59,6 +82,8 @@ pub struct Model {
     pub mass: Vec<f64>,
     /// Inverse mass (1/kg) by node and axis; 0 where a support holds it.
     pub inverse_mass: Vec<[f64; 2]>,
+    /// Nodes that a support holds in x, y or both.
+    pub held: Vec<u32>,
     /// Nodal load f (N) of the body forces, if the scene has any.
     pub load: Option<Vec<[f64; 2]>>,
     /// Contacts by name.
@@ -81,6 +106,7 @@ impl Model {
             stiffness: BlockCsr { row_start: vec![0], ..BlockCsr::default() },
             mass: Vec::new(),
             inverse_mass: Vec::new(),
+            held: Vec::new(),
             load: None,
             contacts: Vec::new(),
             pairs: Vec::new(),
@@ -97,6 +123,8 @@ impl Model {
             let nodes = lower::find_body(&model.bodies, &support.body, &object)?.1.nodes.clone();
             support.apply(&mut model.inverse_mass[nodes])?;
         }
+        let holds = |w: &[f64; 2]| w.contains(&0.0);
+        model.held = (0..).zip(&model.inverse_mass).filter(|(_, w)| holds(w)).map(|(node, _)| node).collect();
         for contact in &scene.contacts {
             lower::add_contact(&mut model, contact, &scene.obstacles)?;
         }
@@ -156,6 +184,17 @@ impl Model {
         self.bodies.iter().map(|b| b.element_omega).fold(0.0, f64::max)
     }
 
+    /// Boundary of a body as a surface.
+    pub fn surface(&self, body: u32) -> Surface {
+        let body = &self.bodies[body as usize];
+        let vertices: Vec<u32> = body.loops.iter().flatten().copied().collect();
+        let mut number = 0..;
+        let rings: Vec<Vec<u32>> = body.loops.iter().map(|ring| number.by_ref().take(ring.len()).collect()).collect();
+        let mut surface = Surface::new(&rings, true, &self.points, Vertices::Nodes(vertices));
+        surface.element_stiffness.clone_from(&body.edge_stiffness);
+        surface
+    }
+
     /// First element that a displacement has turned inside out, by kind, number and body.
     pub fn inverted(&self, displacement: &[f64]) -> Option<String> {
         let u = Lane::new(displacement, 1, 0);
@@ -166,6 +205,26 @@ impl Model {
             let found = triangle.map(|e| ("triangle", e)).or_else(|| quad().map(|e| ("quad", e)));
             found.map(|(kind, e)| format!("{kind} {e} of \"{}\"", body.name))
         })
+    }
+
+    /// The components of a nodal vector along free degrees of freedom.
+    #[inline]
+    pub fn free(&self, node: u32, vector: [f64; 2]) -> [f64; 2] {
+        let w = self.inverse_mass[node as usize];
+        [if w[0] > 0.0 { vector[0] } else { 0.0 }, if w[1] > 0.0 { vector[1] } else { 0.0 }]
+    }
+
+    /// u'K u over the held degrees of freedom of a node (J).
+    pub fn held_work(&self, node: u32, displacement: Lane) -> f64 {
+        let x = displacement.at(node);
+        let free = self.free(node, x);
+        let held = [x[0] - free[0], x[1] - free[1]];
+        if held == [0.0; 2] {
+            return 0.0;
+        }
+        let (load, force) =
+            (self.load.as_ref().map_or([0.0; 2], |f| f[node as usize]), self.nodal_force(node, displacement));
+        held[0] * (load[0] - force[0]) + held[1] * (load[1] - force[1])
     }
 
     /// Nodal force f - K u (N) of one node.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::contact::overlap;
+use crate::contact::overlap::{self, Overlap};
 use crate::critical_step::{assembled_bound, element_bound};
 use crate::energy;
 use crate::error::{Error, Result, short};
@@ -165,6 +165,8 @@ impl Run {
 
     fn fail(&mut self, kind: Kind, seen: &str) {
         if self.outcome == Outcome::Running {
+            // The energies may not have been sampled for long: what moves now tells whether the mesh has run away.
+            self.watch.sample(energy::moving(&self.model, &self.state));
             self.outcome = self.judge().outcome(kind, seen);
         }
     }
@@ -203,13 +205,22 @@ fn check_step(model: &Model, spec: &RunSpec) -> Result<()> {
 fn check_overlap(model: &Model, displacement: Lane) -> Result<()> {
     for pair in &model.pairs {
         let contact = &model.contacts[pair.contact as usize];
-        let Some((node, depth)) = overlap::deepest(pair, &model.points, displacement) else {
-            continue;
-        };
+        let body = &model.bodies[pair.secondary_body as usize];
+        let (points, inner) = (&model.points, body.inner_point(&model.points, displacement));
+        let mut found = overlap::deepest(pair, inner, points, displacement).map(|o| (body, o));
+        if let Some(other) = pair.primary_body {
+            // The other way round: a corner of the primary in a side of the secondary.
+            let (other, surface) = (&model.bodies[other as usize], model.surface(pair.secondary_body));
+            let (nodes, inner) = (other.surface_nodes(), other.inner_point(points, displacement));
+            let theirs = overlap::deepest_in(&surface, &nodes, inner, points, displacement).map(|o| (other, o));
+            let deeper = |a: &Option<(_, Overlap)>| a.as_ref().map_or(0.0, |(_, o)| o.depth);
+            found = if deeper(&theirs) > deeper(&found) { theirs } else { found };
+        }
+        let Some((body, Overlap { node, depth })) = found else { continue };
         if depth > contact.overlap_tolerance {
             let [first, second] = &contact.names;
-            let body = &model.bodies[pair.secondary_body as usize];
-            let what = format!("overlap at node {} of \"{}\"", node as usize - body.nodes.start, body.name);
+            let place = node.map_or("the inside".into(), |n| format!("node {}", n as usize - body.nodes.start));
+            let what = format!("overlap at {place} of \"{}\"", body.name);
             let bound = format!("<= {:.3e} m at the start", contact.overlap_tolerance);
             let object = format!("contact \"{first}\" on \"{second}\"");
             let remedy = "move the bodies apart or raise the contact's overlap_tolerance";

@@ -4,7 +4,7 @@ use bipenalty::penalty::{Damping, Mass, Method, Stiffness};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-/// Read from the attributes `stiffness_rule`, `kappa`, `mass_rule` and `damping_rule`.
+/// Read from the attributes `stiffness_rule`, `kappa_rule`, `mass_rule` and `damping_rule`.
 pub struct MethodIn(pub Method);
 
 impl<'py> FromPyObject<'_, 'py> for MethodIn {
@@ -37,6 +37,6 @@ impl<'py> FromPyObject<'_, 'py> for MethodIn {
             "critical" => Damping::Critical,
             other => return Err(unknown("damping", other)),
         };
-        Ok(Self(Method { stiffness, kappa: object.getattr("kappa")?.extract()?, mass, damping }))
+        Ok(Self(Method { stiffness, kappa: object.getattr("kappa_rule")?.extract()?, mass, damping }))
     }
 }

@@ -44,7 +44,7 @@ pub fn summary<'py>(py: Python<'py>, run: &Run) -> PyResult<Bound<'py, PyDict>> 
     dict.set_item("max_displacement", peaks.displacement)?;
     dict.set_item("peak_force", peaks.force)?;
     dict.set_item("impulse", peaks.impulse)?;
-    dict.set_item("energy_ratio", run.history.energy_ratio())?;
+    dict.set_item("energy_ratio", run.history.energy_ratio(run.watch.reference))?;
     let conclusion = run.conclusion();
     dict.set_item("outcome", conclusion.name())?;
     dict.set_item("reason", conclusion.reason())?;

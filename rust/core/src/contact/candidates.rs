@@ -4,35 +4,22 @@ use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhNode};
 
-use super::gap::{dot, project, unit_normal};
-use super::pair::{Place, SurfaceNode, nearest, signed_gap};
-use super::surface::{Surface, position};
-use crate::lane::Lane;
+use super::gap::project;
+use super::pair::{SurfaceNode, faces};
+use super::posed::Posed;
 
-/// Facing is less than this scalar product of a segment's unit normal and the sum of the node's two: flanks at a right
-/// angle must not come and go with round-off.
-const FACING: f64 = -1e-6;
-
-/// A segment that a node may meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Candidate {
-    /// Segment of the primary surface.
-    pub segment: u32,
-    /// Whether its normal opposes the node's own: a thin body has two sides, and only one is met.
-    pub faces: bool,
-}
-
-/// Candidate segments of each secondary node that may come into contact before the next search.
+/// Secondary nodes that may come into contact before the next search, each with the segments it may meet.
 #[derive(Debug, Clone, Default)]
 pub struct Candidates {
+    /// Places in the pair's list of secondary nodes.
     nodes: Vec<u32>,
     start: Vec<u32>,
-    segments: Vec<Candidate>,
+    segments: Vec<u32>,
 }
 
 impl Candidates {
-    /// Each candidate node with its segments.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, &[Candidate])> {
+    /// Place of each candidate in the pair's list of secondary nodes, with its segments.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, &[u32])> {
         let segments = |i: usize| &self.segments[self.start[i] as usize..self.start[i + 1] as usize];
         self.nodes.iter().enumerate().map(move |(i, &node)| (node, segments(i)))
     }
@@ -58,52 +45,49 @@ impl Candidates {
 
 /// What decides which segments of one surface a node may meet before the next search.
 pub(super) struct Near<'a> {
-    pub surface: &'a Surface,
+    pub posed: Posed<'a>,
     pub tree: &'a Bvh,
-    pub points: &'a [[f64; 2]],
-    pub displacement: Lane<'a>,
     pub skin: f64,
 }
 
 impl Near<'_> {
     /// Segments that can become the node's nearest, or its nearest facing one, while the skin lasts.
-    pub(super) fn collect(&self, secondary: &SurfaceNode, near: &mut Vec<Candidate>, candidates: &mut Candidates) {
-        let place = (position(secondary.node, self.points, self.displacement), self.points, self.displacement);
-        self.around(secondary, place, near);
-        let Some((closest, projection)) = nearest(self.surface, near.iter(), place) else { return };
-        let gap = signed_gap(self.surface, closest.segment, projection, place);
-        let distance = projection.distance2.sqrt();
+    pub(super) fn collect(
+        &self,
+        index: u32,
+        secondary: &SurfaceNode,
+        near: &mut Vec<u32>,
+        candidates: &mut Candidates,
+    ) {
+        let p = self.posed.node(secondary.node);
+        self.around(p, near);
+        let Some(nearest) = self.posed.nearest(p, near.iter().copied()) else { return };
+        let (gap, distance) = (self.posed.signed_gap(p, nearest), nearest.1.distance2.sqrt());
         // An outside node farther than the skin cannot arrive; past the end of an open surface the side is unknown.
         if gap.is_none_or(|g| g.gap >= 0.0) && distance > self.skin {
             return;
         }
-        let facing = nearest(self.surface, near.iter().filter(|c| c.faces), place);
-        let Some((_, facing)) = facing else { return };
+        let faces = faces(&self.posed, secondary);
+        let facing = self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
         let reach = distance + 2.0 * self.skin;
-        let reach_facing = facing.distance2.sqrt() + 2.0 * self.skin;
-        for &candidate in near.iter() {
-            let [a, b] = self.surface.ends(candidate.segment, self.points, self.displacement);
-            let distance = project(place.0, a, b).distance2.sqrt();
-            if distance <= reach || (candidate.faces && distance <= reach_facing) {
-                candidates.segments.push(candidate);
+        let reach_facing = facing.map_or(0.0, |(_, f)| f.distance2.sqrt() + 2.0 * self.skin);
+        for &segment in near.iter() {
+            let [a, b] = self.posed.ends(segment);
+            let distance = project(p, a, b).distance2.sqrt();
+            if distance <= reach || (distance <= reach_facing && faces(segment)) {
+                candidates.segments.push(segment);
             }
         }
-        candidates.push(secondary.node);
+        candidates.push(index);
     }
 
-    /// Segments whose box is within reach of the node.
-    fn around(&self, secondary: &SurfaceNode, (p, ..): Place, near: &mut Vec<Candidate>) {
-        let at = |node| position(node, self.points, self.displacement);
-        let (n1, n2) = (unit_normal(at(secondary.before), p), unit_normal(p, at(secondary.after)));
-        let normal = [n1[0] + n2[0], n1[1] + n2[1]];
-        let reach = self.surface.reach() + self.skin;
+    /// Segments whose box is within reach of a point.
+    fn around(&self, p: [f64; 2], near: &mut Vec<u32>) {
+        let reach = self.posed.surface.reach() + self.skin;
         let (low, high) = (Vector::new(p[0] - reach, p[1] - reach), Vector::new(p[0] + reach, p[1] + reach));
         let around = BvhNode::leaf(Aabb::new(low, high), 0);
         near.clear();
-        for segment in self.tree.leaves(|node| around.intersects(node)) {
-            let n = self.surface.normal(segment, self.points, self.displacement);
-            near.push(Candidate { segment, faces: dot(n, normal) < FACING });
-        }
-        near.sort_unstable_by_key(|c| c.segment);
+        near.extend(self.tree.leaves(|node| around.intersects(node)));
+        near.sort_unstable();
     }
 }

@@ -4,6 +4,7 @@ pub mod candidates;
 pub mod gap;
 pub mod overlap;
 pub mod pair;
+pub mod posed;
 pub mod search;
 pub mod surface;
 

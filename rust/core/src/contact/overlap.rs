@@ -1,35 +1,55 @@
 //! Bodies that overlap before the run has begun: found by brute force, once.
 
-use super::gap::{dot, from_to, project};
-use super::pair::{Pair, Primary};
+use super::gap::{dot, from_to};
+use super::pair::{Pair, Primary, SurfaceNode};
+use super::posed::Posed;
 use super::surface::{Surface, position};
 use crate::lane::Lane;
 
 /// Overlap tolerance over mean segment length, unless the contact states its own.
 pub const TOLERANCE: f64 = 1e-6;
 
-/// Deepest secondary node inside the primary at the start: node and depth (m), if any lies inside.
-pub fn deepest(pair: &Pair, points: &[[f64; 2]], displacement: Lane) -> Option<(u32, f64)> {
-    let at = |node| position(node, points, displacement);
-    let depth = |node: u32| match &pair.primary {
-        Primary::HalfPlane { point, normal } => -dot(from_to(*point, at(node)), *normal),
-        Primary::Surface(surface) if surface.is_closed() => depth_inside(surface, at(node), points, displacement),
-        Primary::Surface(_) => 0.0,
-    };
-    let nodes = pair.secondary.iter().map(|s| (s.node, depth(s.node)));
-    nodes.filter(|&(_, d)| d > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
+/// Where two bodies overlap most: a node, or a point of the body's inside, and its depth (m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// Node; none for a point inside.
+    pub node: Option<u32>,
+    /// Depth inside the other body (m).
+    pub depth: f64,
 }
 
-/// Distance to the surface of a point inside a closed one (even-odd rule); 0 outside.
-fn depth_inside(surface: &Surface, p: [f64; 2], points: &[[f64; 2]], displacement: Lane) -> f64 {
-    let (mut inside, mut nearest) = (false, f64::INFINITY);
-    for s in 0..surface.segments.len() as u32 {
-        let [a, b] = surface.ends(s, points, displacement);
-        if (a[1] > p[1]) != (b[1] > p[1]) {
-            let crossing = a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-            inside ^= p[0] < crossing;
+/// Deepest secondary node inside a pair's primary, or `inner`, a point inside the secondary body.
+pub fn deepest(pair: &Pair, inner: [f64; 2], points: &[[f64; 2]], displacement: Lane) -> Option<Overlap> {
+    match &pair.primary {
+        Primary::Surface(surface) => deepest_in(surface, &pair.secondary, inner, points, displacement),
+        Primary::HalfPlane { point, normal } => {
+            let depth = |s: &SurfaceNode| -dot(from_to(*point, position(s.node, points, displacement)), *normal);
+            most(pair.secondary.iter().map(|s| (Some(s.node), depth(s))))
         }
-        nearest = nearest.min(project(p, a, b).distance2);
     }
-    if inside { nearest.sqrt() } else { 0.0 }
+}
+
+/// Deepest of the nodes inside a surface, or of `inner`, a point inside their body.
+pub fn deepest_in(
+    surface: &Surface,
+    nodes: &[SurfaceNode],
+    inner: [f64; 2],
+    points: &[[f64; 2]],
+    displacement: Lane,
+) -> Option<Overlap> {
+    let posed = Posed { surface, points, displacement };
+    let all = 0..surface.segments.len() as u32;
+    // An open surface has no inside: what lies farther behind it than contact can see does not count.
+    let seen = if surface.is_closed() { f64::INFINITY } else { surface.reach() };
+    let depth = |p: [f64; 2]| {
+        let found = posed.nearest(p, all.clone()).and_then(|nearest| posed.signed_gap(p, nearest));
+        found.map_or(0.0, |gap| if -gap.gap <= seen { -gap.gap } else { 0.0 })
+    };
+    let at_nodes = nodes.iter().map(|s| (Some(s.node), depth(position(s.node, points, displacement))));
+    most(at_nodes.chain([(None, depth(inner))]))
+}
+
+fn most(depths: impl Iterator<Item = (Option<u32>, f64)>) -> Option<Overlap> {
+    let deepest = depths.filter(|(_, d)| *d > 0.0).max_by(|a, b| a.1.total_cmp(&b.1));
+    deepest.map(|(node, depth)| Overlap { node, depth })
 }

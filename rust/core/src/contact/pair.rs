@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::candidates::{Candidate, Candidates};
-use super::gap::{Gap, Location, Projection, dot, from_to, gap_at_vertex, gap_inside, is_at_end, long_normal, project};
+use super::candidates::Candidates;
+use super::gap::{Gap, dot, from_to, long_normal, unit_normal};
+use super::posed::Posed;
 use super::surface::{Surface, position};
 use crate::lane::Lane;
 use crate::row::{Behind, Row};
@@ -61,7 +62,8 @@ impl Pair {
     pub fn rows(&self, candidates: &Candidates, points: &[[f64; 2]], displacement: Lane, rows: &mut Vec<Row>) {
         match &self.primary {
             Primary::HalfPlane { point, normal } => {
-                for (node, _) in candidates.iter() {
+                for (index, _) in candidates.iter() {
+                    let node = self.secondary[index as usize].node;
                     let gap = dot(from_to(*point, position(node, points, displacement)), *normal);
                     if gap < 0.0 {
                         rows.push(Row::new(&[(node, *normal)], self.contact, gap, self.behind(node, None)));
@@ -69,10 +71,11 @@ impl Pair {
                 }
             }
             Primary::Surface(surface) => {
-                for (node, segments) in candidates.iter() {
-                    let p = position(node, points, displacement);
-                    if let Some((segment, gap)) = penetration(surface, segments, p, points, displacement) {
-                        rows.push(self.row(surface, node, segment, gap));
+                let posed = Posed { surface, points, displacement };
+                for (index, segments) in candidates.iter() {
+                    let secondary = &self.secondary[index as usize];
+                    if let Some((segment, gap)) = penetration(&posed, secondary, segments) {
+                        rows.push(self.row(surface, secondary.node, segment, gap));
                     }
                 }
             }
@@ -103,81 +106,47 @@ impl Pair {
 /// that slides along a flank must not come and go with round-off.
 const ON_SURFACE: f64 = 1e-9;
 
+/// Facing is less than this scalar product of a segment's unit normal and the sum of the node's two: flanks at a right
+/// angle must not come and go with round-off.
+const FACING: f64 = -1e-6;
+
+/// True for segments whose normal opposes the node's own: a thin body has two sides, and only one is met.
+#[inline]
+pub(super) fn faces<'p>(posed: &'p Posed, secondary: &SurfaceNode) -> impl Fn(u32) -> bool + 'p {
+    let [before, p, after] = [secondary.before, secondary.node, secondary.after].map(|n| posed.node(n));
+    let (n1, n2) = (unit_normal(before, p), unit_normal(p, after));
+    let normal = [n1[0] + n2[0], n1[1] + n2[1]];
+    move |segment| dot(posed.normal(segment), normal) < FACING
+}
+
 /// Gap of a node to the nearest segment that faces it, if the node lies inside the primary.
 ///
 /// The nearest of all segments tells inside from outside; the nearest that faces the node tells where to push it,
 /// so that a node past the middle of a thin body goes back the way it came.
 #[inline]
-fn penetration(
-    surface: &Surface,
-    candidates: &[Candidate],
-    p: [f64; 2],
-    points: &[[f64; 2]],
-    displacement: Lane,
-) -> Option<(u32, Gap)> {
+fn penetration(posed: &Posed, secondary: &SurfaceNode, segments: &[u32]) -> Option<(u32, Gap)> {
+    let p = posed.node(secondary.node);
     // A point inside lies behind the line of its nearest segment: in front of all of them there is no contact.
-    let behind = |c: &Candidate| {
-        let [a, b] = surface.ends(c.segment, points, displacement);
+    let behind = |&segment: &u32| {
+        let [a, b] = posed.ends(segment);
         dot(from_to(a, p), long_normal(a, b)) < 0.0
     };
-    if !candidates.iter().any(behind) {
+    if !segments.iter().any(behind) {
         return None;
     }
-    let place = (p, points, displacement);
-    let (closest, projection) = nearest(surface, candidates.iter(), place)?;
-    let gap = signed_gap(surface, closest.segment, projection, place)?;
-    if gap.gap > ON_SURFACE * surface.size {
+    let nearest = posed.nearest(p, segments.iter().copied())?;
+    let gap = posed.signed_gap(p, nearest)?;
+    if gap.gap > ON_SURFACE * posed.surface.size {
         return None;
     }
-    let (segment, gap) = if closest.faces {
-        (closest.segment, gap)
+    let faces = faces(posed, secondary);
+    let (segment, gap) = if faces(nearest.0) {
+        (nearest.0, gap)
     } else {
-        let (facing, projection) = nearest(surface, candidates.iter().filter(|c| c.faces), place)?;
-        (facing.segment, signed_gap(surface, facing.segment, projection, place)?)
+        let facing = posed.nearest(p, segments.iter().copied().filter(|s| faces(*s)))?;
+        (facing.0, posed.signed_gap(p, facing)?)
     };
     (gap.gap < 0.0).then_some((segment, gap))
-}
-
-/// Position of a node, with what places the segments: reference points and displacement.
-pub(super) type Place<'a> = ([f64; 2], &'a [[f64; 2]], Lane<'a>);
-
-/// Nearest of the segments, the first one of equals.
-pub(super) fn nearest<'c>(
-    surface: &Surface,
-    candidates: impl Iterator<Item = &'c Candidate>,
-    (p, points, displacement): Place,
-) -> Option<(Candidate, Projection)> {
-    let mut best: Option<(Candidate, Projection)> = None;
-    for &candidate in candidates {
-        let [a, b] = surface.ends(candidate.segment, points, displacement);
-        let projection = project(p, a, b);
-        if best.is_none_or(|(_, other)| projection.distance2 < other.distance2) {
-            best = Some((candidate, projection));
-        }
-    }
-    best
-}
-
-/// Signed gap to the closest point found; none past the end of an open surface.
-pub(super) fn signed_gap(
-    surface: &Surface,
-    segment: u32,
-    projection: Projection,
-    (p, points, displacement): Place,
-) -> Option<Gap> {
-    let [a, b] = surface.ends(segment, points, displacement);
-    match projection.location {
-        Location::Inside(xi) => Some(gap_inside(p, a, b, xi)),
-        // Past an end by round-off only: the segment's own normal, not one made of round-off.
-        Location::End(end) if is_at_end(p, a, b, end) => Some(gap_inside(p, a, b, end as f64)),
-        Location::End(end) => {
-            let this = surface.segments[segment as usize];
-            let other = if end == 0 { this.before } else { this.after }?;
-            let own = surface.normal(segment, points, displacement);
-            let next = surface.normal(other, points, displacement);
-            Some(gap_at_vertex(p, if end == 0 { a } else { b }, end, own, next, surface.mean_length))
-        }
-    }
 }
 
 impl Pair {

@@ -4,9 +4,10 @@ use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 
-use super::candidates::{Candidate, Candidates, Near};
+use super::candidates::{Candidates, Near};
 use super::gap::{dot, from_to};
 use super::pair::{Pair, Primary};
+use super::posed::Posed;
 use super::surface::{Surface, Vertices, position};
 use crate::error::{Error, Result, short};
 use crate::lane::Lane;
@@ -25,7 +26,7 @@ pub struct Search {
     watched: Vec<Watched>,
     trees: Vec<Bvh>,
     workspace: BvhWorkspace,
-    near: Vec<Candidate>,
+    near: Vec<u32>,
 }
 
 /// Surface nodes of one body and their displacements at the last search.
@@ -123,16 +124,16 @@ impl Search {
         match &pair.primary {
             Primary::HalfPlane { point, normal } => {
                 let reach = skin(pair);
-                for s in &pair.secondary {
+                for (index, s) in pair.secondary.iter().enumerate() {
                     if dot(from_to(*point, position(s.node, points, displacement)), *normal) <= reach {
-                        candidates.push(s.node);
+                        candidates.push(index as u32);
                     }
                 }
             }
             Primary::Surface(surface) => {
-                let tree = &mut self.trees[index];
+                let (tree, posed) = (&mut self.trees[index], Posed { surface, points, displacement });
                 let boxes = (0..surface.segments.len()).map(|i| {
-                    let [a, b] = surface.ends(i as u32, points, displacement).map(|x| Vector::new(x[0], x[1]));
+                    let [a, b] = posed.ends(i as u32).map(|x| Vector::new(x[0], x[1]));
                     (i, Aabb::new(a.min(b), a.max(b)))
                 });
                 if tree.is_empty() {
@@ -141,9 +142,9 @@ impl Search {
                     boxes.for_each(|(i, aabb)| _ = tree.insert_or_update_partially(aabb, i as u32, 0.0));
                     tree.refit(&mut self.workspace);
                 }
-                let near = Near { surface, tree, points, displacement, skin: skin(pair) };
-                for node in &pair.secondary {
-                    near.collect(node, &mut self.near, candidates);
+                let near = Near { posed, tree, skin: skin(pair) };
+                for (index, secondary) in pair.secondary.iter().enumerate() {
+                    near.collect(index as u32, secondary, &mut self.near, candidates);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::lane::Lane;
 
-use super::gap::{from_to, unit_normal};
+use super::gap::from_to;
 
 /// One segment with its neighbours along the surface.
 #[derive(Debug, Clone, Copy)]
@@ -101,19 +101,6 @@ impl Surface {
             Vertices::Fixed(fixed) => fixed[vertex as usize],
             Vertices::Nodes(nodes) => position(nodes[vertex as usize], points, displacement),
         }
-    }
-
-    /// Current ends of a segment.
-    #[inline]
-    pub fn ends(&self, segment: u32, points: &[[f64; 2]], displacement: Lane) -> [[f64; 2]; 2] {
-        self.segments[segment as usize].ends.map(|v| self.position(v, points, displacement))
-    }
-
-    /// Current outward unit normal of a segment.
-    #[inline]
-    pub fn normal(&self, segment: u32, points: &[[f64; 2]], displacement: Lane) -> [f64; 2] {
-        let [a, b] = self.ends(segment, points, displacement);
-        unit_normal(a, b)
     }
 }
 
