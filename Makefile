@@ -17,10 +17,11 @@ unexport CONDA_PREFIX PYTHONHOME PYTHONPATH
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help sweep test check bench figures setup clean toolchain
+.PHONY: help sweep stability test check bench figures setup clean toolchain
 
 help:
 	@echo "make sweep     the colliding-cylinder study: tables and figures into out/"
+	@echo "make stability maps of where each method holds, into out/"
 	@echo "make test      all Rust and Python tests"
 	@echo "make check     formatting, lints, types and stubs"
 	@echo "make bench     the measurements behind the performance claims"
@@ -30,6 +31,9 @@ help:
 
 sweep: setup
 	$(RUN) examples/penalty_sweep.py
+
+stability: setup
+	$(RUN) examples/stability.py
 
 test: setup
 	cargo test --locked
@@ -46,7 +50,7 @@ check: setup
 bench: setup
 	$(RUN) benchmarks/run.py
 
-figures: sweep
+figures: sweep stability
 	mkdir -p docs/figures
 	cp out/*.png docs/figures/
 
