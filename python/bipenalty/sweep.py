@@ -125,7 +125,7 @@ def _dataset(
     histories: bool,
     attributes: dict[str, Any],
 ) -> xr.Dataset:
-    lost = dict.fromkeys(SUMMARY, math.nan) | {
+    lost: dict[str, Any] = dict.fromkeys(SUMMARY, math.nan) | {
         "outcome": "lost",
         "reason": "its thread died",
         "planned_steps": 0,

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-from bipenalty.methods.method import NO_RULE, Rule, settle
+from bipenalty.methods.method import Rule, StiffnessOnly, settle
 
 
 @dataclass(frozen=True)
-class _Scaled:
+class _Scaled(StiffnessOnly):
     """A stiffness rule of one scale factor; no mass penalty, no damping, no cap."""
 
     scale: float = 0.1
@@ -21,21 +20,6 @@ class _Scaled:
     def stiffness_rule(self) -> Rule:
         """Which rule."""
         raise NotImplementedError
-
-    @property
-    def kappa_rule(self) -> float:
-        """No cap."""
-        return math.inf
-
-    @property
-    def mass_rule(self) -> Rule:
-        """No mass penalty."""
-        return NO_RULE
-
-    @property
-    def damping_rule(self) -> Rule:
-        """No damping penalty."""
-        return NO_RULE
 
     @property
     def label(self) -> str:

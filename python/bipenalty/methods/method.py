@@ -29,6 +29,25 @@ class Method(Protocol):
     def label(self) -> str: ...
 
 
+class StiffnessOnly:
+    """Base of methods that penalise stiffness alone: no cap, no mass penalty, no damping."""
+
+    @property
+    def kappa_rule(self) -> float:
+        """No cap."""
+        return math.inf
+
+    @property
+    def mass_rule(self) -> Rule:
+        """No mass penalty."""
+        return NO_RULE
+
+    @property
+    def damping_rule(self) -> Rule:
+        """No damping penalty."""
+        return NO_RULE
+
+
 def settle(method: Method, *names: str, required: str = "") -> None:
     """Make the named parameters floats, unless they are left out, and let the core check the bounds of all."""
     owner = type(method).__name__

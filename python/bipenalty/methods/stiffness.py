@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-from bipenalty.methods.method import NO_RULE, Rule, settle
+from bipenalty.methods.method import NO_RULE, Rule, StiffnessOnly, settle
 
 
 @dataclass(frozen=True)
-class Stiffness:
+class Stiffness(StiffnessOnly):
     """Stiffness penalty method, with damping if D is given: alpha_s = ps E_max, alpha_d = D alpha_s.
 
     Parameters
@@ -40,16 +39,6 @@ class Stiffness:
     def stiffness_rule(self) -> Rule:
         """alpha_s = ps E_max."""
         return "factor", self.ps
-
-    @property
-    def kappa_rule(self) -> float:
-        """No cap."""
-        return math.inf
-
-    @property
-    def mass_rule(self) -> Rule:
-        """No mass penalty."""
-        return NO_RULE
 
     @property
     def damping_rule(self) -> Rule:

@@ -4,6 +4,7 @@
 //! [`step::step`] and collects a [`history::History`].
 
 pub mod batch;
+pub mod body;
 pub mod boundary;
 pub mod constraint;
 pub mod contact;
@@ -22,6 +23,7 @@ pub mod outcome;
 pub mod penalty;
 pub mod row;
 pub mod run;
+pub mod run_spec;
 pub mod scene;
 pub mod state;
 pub mod step;
