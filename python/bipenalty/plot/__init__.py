@@ -8,5 +8,7 @@ draw into axes or a figure of your own, hand them over (`ax=`, `figure=`).
 from bipenalty.plot.deformation_figure import deformation
 from bipenalty.plot.force_figure import force
 from bipenalty.plot.penetration_figure import penetration
+from bipenalty.plot.restitution_figure import restitution, restitution_and_runs
+from bipenalty.plot.stability_figure import stability
 
-__all__ = ["deformation", "force", "penetration"]
+__all__ = ["deformation", "force", "penetration", "restitution", "restitution_and_runs", "stability"]

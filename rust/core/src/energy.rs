@@ -30,16 +30,6 @@ impl Energies {
     }
 }
 
-/// Kinetic energy (J/m) of the half-step velocity.
-pub fn moving(model: &Model, state: &State) -> f64 {
-    let v = Lane::new(&state.velocity, state.lanes, 0);
-    let one = |(node, m): (usize, &f64)| {
-        let [x, y] = v.at(node as u32);
-        0.5 * m * (x * x + y * y)
-    };
-    model.mass.iter().enumerate().map(one).sum()
-}
-
 /// Energies at t_n just after the step from t_n: `before` is v_{n-1/2}, the state holds v_{n+1/2} and, in `other`, u_n.
 ///
 /// The strain energy takes K u_n from the equation of motion, `K u = f + G' lambda - M (v+ - v-)/dt`, so that no

@@ -1,5 +1,6 @@
 //! How a run ended, and the sentence that says why.
 
+use crate::critical_step::assembled::largest_omega2;
 use crate::error::short;
 use crate::model::Model;
 use crate::watch::{TOLERANCE, Watch};
@@ -76,20 +77,20 @@ pub(crate) struct Judge<'a> {
 impl Judge<'_> {
     /// The outcome of a run in which `seen` was noticed as a `kind`: a deeper cause takes its place if there is one.
     pub(crate) fn outcome(&self, kind: Kind, seen: &str) -> Outcome {
-        let (mesh, row) = (self.model.element_omega() * self.dt, self.watch.row_omega2.sqrt() * self.dt);
+        let (mesh, row) = (self.mesh(), self.watch.row_omega2.sqrt() * self.dt);
         let time = format!("t = {} s", short(self.time));
         let gained = self.watch.passed(TOLERANCE);
         let energy = || format!("contact has added {} times the energy there was", short(self.watch.gain()));
-        let (kind, why) = if self.ratio.is_finite() && self.ratio.sqrt() * self.dt > 2.0 && gained {
+        let (kind, why) = if mesh > 2.0 {
+            let stiffest = self.model.bodies.iter().max_by(|a, b| a.element_omega.total_cmp(&b.element_omega));
+            let (name, omega) = (stiffest.map_or("", |b| &b.name), short(mesh));
+            let why = format!("omega dt = {omega} of the mesh (stiffest elements in \"{name}\") is above 2; reduce dt");
+            (Kind::SpectralInstability, why)
+        } else if self.ratio.is_finite() && self.ratio.sqrt() * self.dt > 2.0 && gained {
             let omega = short(self.ratio.sqrt() * self.dt);
             (Kind::SpectralInstability, format!("omega dt = {omega} of the penalty ratio, above 2; lower R to 4/dt^2"))
         } else if self.ratio.is_infinite() && gained && mesh.hypot(row) > 2.0 {
             (Kind::SpectralInstability, self.rows_too_fast(mesh, row))
-        } else if mesh > 2.0 && !gained && self.watch.grown() {
-            let bodies = self.model.bodies.iter().max_by(|a, b| a.element_omega.total_cmp(&b.element_omega));
-            let (name, omega) = (bodies.map_or("", |b| &b.name), short(mesh));
-            let why = format!("omega dt = {omega} of the elements of \"{name}\" is above 2; reduce dt");
-            (Kind::SpectralInstability, why)
         } else if gained {
             let bound = if self.ratio.is_finite() { mesh.max(self.ratio.sqrt() * self.dt) } else { mesh.hypot(row) };
             let remedy = "use rule=\"critical\", add damping or lower p_s";
@@ -100,6 +101,12 @@ impl Judge<'_> {
         };
         let seen = if seen.is_empty() { format!("by {time}") } else { format!("{seen} at {time}") };
         Outcome::Failed(kind, format!("{seen}: {why}"))
+    }
+
+    /// omega dt of the mesh: the element bound where that is within the limit, the assembled matrix where it is not.
+    fn mesh(&self) -> f64 {
+        let elements = self.model.element_omega() * self.dt;
+        if elements <= 2.0 { elements } else { largest_omega2(self.model).found.sqrt() * self.dt }
     }
 
     /// A row raises omega^2 by no more than its own (rank-one bound) and to no less than it.

@@ -148,8 +148,6 @@ impl Run {
 
     fn fail(&mut self, kind: Kind, seen: &str) {
         if self.outcome == Outcome::Running {
-            // The energies may not have been sampled for long: what moves now tells whether the mesh has run away.
-            self.watch.sample(energy::moving(&self.model, &self.state));
             self.outcome = self.judge().outcome(kind, seen);
         }
     }

@@ -22,8 +22,6 @@ pub struct Watch {
     pub damping_loss: f64,
     /// Energy of the bodies had the rows done no work (J/m), the most of all samples.
     pub reference: f64,
-    /// That energy at the first sample (J/m).
-    pub first: Option<f64>,
     /// Largest frequency squared of a single row (1/s^2).
     pub row_omega2: f64,
     /// First node of that row: the secondary node of a contact.
@@ -48,19 +46,12 @@ impl Watch {
 
     /// Takes in a sample of the bodies' energy (J/m), kinetic and strain.
     pub fn sample(&mut self, energy: f64) {
-        let alone = energy - self.work;
-        self.first.get_or_insert(alone);
-        self.reference = self.reference.max(alone);
+        self.reference = self.reference.max(energy - self.work);
     }
 
     /// True when contact has added more than `share` of the reference energy, or when that is not a number.
     pub fn passed(&self, share: f64) -> bool {
         self.reference > 0.0 && (self.most.is_nan() || self.most > share * self.reference)
-    }
-
-    /// True when the bodies have gained energy that the rows did not give them: the mesh itself is unstable, or loaded.
-    pub fn grown(&self) -> bool {
-        self.first.is_some_and(|first| self.reference > 2.0 * first)
     }
 
     /// Energy added by the rows over the reference.
