@@ -71,13 +71,13 @@ def time_step(core: _core.Model, dt: str | float, safety: float | None) -> float
     return step
 
 
-def critical_alpha_s(assembled: float, inverse_mass: float, dt: float) -> float:
-    """Stiffness penalty (N/m per m) up to which omega_0^2 + alpha_s lambda_max(G M^-1 G') stays within 4/dt^2.
+def critical_ps(assembled: float, stiffening: float, dt: float) -> float:
+    """Stiffness penalty factor up to which omega_0^2 + p_s lambda_max(E^1/2 G M^-1 G' E^1/2) stays within 4/dt^2, -.
 
     Parameters
     ----------
     assembled : critical time step of the mesh 2/omega_0, s.
-    inverse_mass : lambda_max(G M^-1 G'), 1/kg.
+    stiffening : lambda_max(E^1/2 G M^-1 G' E^1/2), N/m^2 per kg.
     dt : time step, s.
 
     A lower bound on what is stable for a fixed active set (Belytschko and Neal 1991); 0 when dt is past the mesh's
@@ -85,9 +85,9 @@ def critical_alpha_s(assembled: float, inverse_mass: float, dt: float) -> float:
 
     Example
     -------
-    >>> critical_alpha_s(assembled=2.0, inverse_mass=3.0, dt=1.0)
+    >>> critical_ps(assembled=2.0, stiffening=3.0, dt=1.0)
     1.0
     """
-    if inverse_mass <= 0:
+    if stiffening <= 0:
         return math.inf
-    return max(0.0, (4 / dt**2 - 4 / assembled**2) / inverse_mass)
+    return max(0.0, (4 / dt**2 - 4 / assembled**2) / stiffening)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bipenalty import _core, checks, progress
-from bipenalty.critical_step import CriticalStep, critical_alpha_s, time_step
+from bipenalty.critical_step import CriticalStep, critical_ps, time_step
 from bipenalty.errors import InputError, RunError
 from bipenalty.lower import lower
 from bipenalty.methods import Bipenalty, Method
@@ -86,7 +86,9 @@ class Model:
     def critical_step(self) -> CriticalStep:
         """Limits of the time step: elements, assembled matrix, and the rows active in the last step."""
         mesh = self._core.assembled_critical_dt()
-        rows = self._run.active_limits()[0] if self._run.rows else mesh
+        # A ratio that follows the time step keeps omega^2 <= max(omega_0^2, R) at every one: rows cost nothing.
+        follows = self.method.mass_rule[0] in ("ratio from step", "critical") and self.R <= 4 / self.dt**2
+        rows = self._run.active_limits()[0] if self._run.rows and not follows else mesh
         return CriticalStep(self.critical_dt, mesh, min(mesh, rows), self.dt)
 
     def critical_ps(self, dt: float | None = None) -> float:
@@ -97,13 +99,12 @@ class Model:
         dt : s; the model's own unless given.
 
         With rows active in the last step it speaks of those; before any, of the worst single row that the two
-        lightest surface nodes can make. A fixed active set is stable below it (see `critical_alpha_s`).
+        lightest surface nodes can make. A fixed active set is stable below it (see `critical_step.critical_ps`).
         """
-        rows = self._run.active_limits()[1] if self._run.rows else self._core.worst_inverse_mass()
+        rows = self._run.active_limits()[1] if self._run.rows else self._core.worst_stiffening()
         step = self.dt if dt is None else checks.number("critical_ps", "dt", dt)
         checks.within("critical_ps", "dt", step, 0 < step < math.inf, "> 0 and finite", "give seconds")
-        stiffest = max(body.material.young for body in self.scene.bodies)
-        return critical_alpha_s(self._core.assembled_critical_dt(), rows, step) / stiffest
+        return critical_ps(self._core.assembled_critical_dt(), rows, step)
 
     @property
     def displacement(self) -> FloatArray:

@@ -66,6 +66,8 @@ class Bipenalty:
             checks.within("Bipenalty", name, value, value is None, f'left out for rule="{self.rule}"', remedy)
         checks.within("Bipenalty", "D and zeta", (self.D, self.zeta), self.D is None or self.zeta is None,
                       "given one at a time", "zeta = D sqrt(R) / 2: leave one out")  # fmt: skip
+        checks.within("Bipenalty", "R and R_safety", (self.R, self.R_safety), self.R is None or self.R_safety is None,
+                      "given one at a time", "R_safety takes R from dt: leave one out")  # fmt: skip
         if isinstance(self.ps, str):
             checks.within("Bipenalty", "ps", repr(self.ps), self.ps == "auto", 'a number or "auto"', "correct it")
             capped = self.rule == "critical" or self.kappa is not None

@@ -1,6 +1,7 @@
 //! How a run ended, and the sentence that says why.
 
 use crate::critical_step::assembled::largest_omega2;
+use crate::critical_step::rows;
 use crate::error::short;
 use crate::model::Model;
 use crate::watch::{TOLERANCE, Watch};
@@ -89,10 +90,12 @@ impl Judge<'_> {
         } else if self.ratio.is_finite() && self.ratio.sqrt() * self.dt > 2.0 && gained {
             let omega = short(self.ratio.sqrt() * self.dt);
             (Kind::SpectralInstability, format!("omega dt = {omega} of the penalty ratio, above 2; lower R to 4/dt^2"))
-        } else if self.ratio.is_infinite() && gained && mesh.hypot(row) > 2.0 {
-            (Kind::SpectralInstability, self.rows_too_fast(mesh, row))
+        } else if let Some(omega) = self.rows_too_fast(row, gained) {
+            let why = format!("omega dt = {} with the contact row{}, above 2;", short(omega), self.place());
+            (Kind::SpectralInstability, format!("{why} lower p_s, reduce dt or add a mass penalty"))
         } else if gained {
-            let bound = if self.ratio.is_finite() { mesh.max(self.ratio.sqrt() * self.dt) } else { mesh.hypot(row) };
+            let set = || rows::largest_omega2(self.model, &self.watch.stiffest).found.sqrt() * self.dt;
+            let bound = if self.ratio.is_finite() { mesh.max(self.ratio.sqrt() * self.dt) } else { set() };
             let remedy = "use rule=\"critical\", add damping or lower p_s";
             let within = format!("though omega dt = {} is within 2", short(bound));
             (Kind::EnergyMade, format!("{} {within}: rows that open and close make it; {remedy}", energy()))
@@ -109,17 +112,34 @@ impl Judge<'_> {
         if elements <= 2.0 { elements } else { largest_omega2(self.model).found.sqrt() * self.dt }
     }
 
-    /// A row raises omega^2 by no more than its own (rank-one bound) and to no less than it.
-    fn rows_too_fast(&self, mesh: f64, row: f64) -> String {
-        let node = self.watch.row_node as usize;
-        let body = self.model.bodies.iter().find(|b| b.nodes.contains(&node));
-        let place = body.map_or(String::new(), |b| format!("node {} of \"{}\"", node - b.nodes.start, b.name));
-        let remedy = "lower p_s, reduce dt or add a mass penalty";
-        if row > 2.0 {
-            format!("omega dt = {} of the contact row at {place} is above 2; {remedy}", short(row))
-        } else {
-            let both = short(mesh.hypot(row));
-            format!("omega dt reaches up to {both} with the contact row at {place}, above 2; {remedy}")
+    /// omega dt of the active rows where that is above 2 and no mass penalty keeps it down: a single row's own, or, where
+    /// energy has been made, that of the mesh with the stiffest set of rows there has been.
+    fn rows_too_fast(&self, row: f64, gained: bool) -> Option<f64> {
+        if self.ratio.is_finite() {
+            return None;
         }
+        let set = || rows::largest_omega2(self.model, &self.watch.stiffest).found.sqrt() * self.dt;
+        let omega = if row > 2.0 {
+            row
+        } else if gained {
+            set()
+        } else {
+            0.0
+        };
+        (omega > 2.0).then_some(omega)
+    }
+
+    /// True when a limit is passed for certain, whether or not anything has come of it.
+    pub(crate) fn past_a_limit(&self) -> bool {
+        let elements = self.model.element_omega() * self.dt;
+        let row = self.watch.row_omega2.sqrt() * self.dt;
+        (self.ratio.is_infinite() && row > 2.0) || (elements > 2.0 && self.watch.swollen() && self.mesh() > 2.0)
+    }
+
+    /// Where the stiffest rows are.
+    fn place(&self) -> String {
+        let Some(node) = self.watch.stiffest.first().map(|row| row.first_node() as usize) else { return String::new() };
+        let body = self.model.bodies.iter().find(|b| b.nodes.contains(&node));
+        body.map_or(String::new(), |b| format!(" at node {} of \"{}\"", node - b.nodes.start, b.name))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::contact::crossing;
 use crate::energy;
 use crate::error::{Result, short};
 use crate::history::{History, Record, Snapshot};
@@ -16,8 +17,11 @@ use crate::watch::{RUNAWAY, TOLERANCE, Watch};
 
 pub use crate::run_spec::RunSpec;
 
-/// Energy samples between two looks at the shapes of the elements.
-const SHAPE_EVERY: u64 = 10;
+/// Steps between two looks at displacements and energies.
+const LOOK_EVERY: u64 = 10;
+
+/// Steps between two looks at the shapes of the elements.
+const SHAPE_EVERY: u64 = 100;
 
 /// One run.
 pub struct Run {
@@ -102,6 +106,8 @@ impl Run {
     pub fn conclusion(&self) -> Outcome {
         match &self.outcome {
             Outcome::Running if self.watch.passed(TOLERANCE) => self.judge().outcome(Kind::EnergyMade, ""),
+            // Past a limit, and yet nothing has come of it so far, or nothing that contact did.
+            Outcome::Running if self.judge().past_a_limit() => self.judge().outcome(Kind::SpectralInstability, ""),
             outcome => outcome.clone(),
         }
     }
@@ -110,7 +116,9 @@ impl Run {
         let n = self.state.steps;
         let snapshot = self.record.snapshots.binary_search(&n).is_ok();
         let sample = last || n.is_multiple_of(self.record.energy_every);
-        if sample || snapshot {
+        // What is recorded is the caller's choice; what is watched is not.
+        let look = sample || n.is_multiple_of(LOOK_EVERY);
+        if look || snapshot {
             self.before.copy_from_slice(&self.state.velocity);
         }
         step(&self.model, &self.settings, &mut self.state, &mut self.work)?;
@@ -123,11 +131,13 @@ impl Run {
             let velocity = self.before.iter().zip(&self.state.velocity).map(|(a, b)| 0.5 * (a + b)).collect();
             self.history.snapshots.push(Snapshot { step: n, displacement: self.state.other.clone(), velocity });
         }
-        if sample {
+        if look {
             let e = energy::sample(&self.model, dt, &self.state, &self.before, rows, forces, &mut self.momentum);
-            self.watch.sample(e.kinetic + e.strain);
-            self.history.sample(n, e, self.watch.damping_loss, &self.momentum);
-            self.look_at(e.max_displacement, last || n.is_multiple_of(SHAPE_EVERY * self.record.energy_every));
+            self.watch.sample(&e);
+            if sample {
+                self.history.sample(n, e, self.watch.damping_loss, &self.momentum);
+            }
+            self.look_at(e.max_displacement, last || n.is_multiple_of(SHAPE_EVERY));
         }
         if self.watch.passed(RUNAWAY) {
             self.fail(Kind::EnergyMade, "energy ran away");
@@ -141,15 +151,25 @@ impl Run {
         } else if displacement > self.displacement_limit {
             let (found, limit) = (short(displacement), short(self.displacement_limit));
             self.fail(Kind::DisplacementLimit, &format!("displacement {found} m passed the limit {limit} m"));
+        } else if let Some((step, most)) = crossing::too_fast(&self.model, &self.state, self.settings.dt) {
+            let (step, most) = (short(step), short(most));
+            let seen = format!("surfaces moved {step} m in one step, contact follows {most} m: reduce dt or speed;");
+            self.fail(Kind::ContactMissed, &seen);
         } else if let Some(element) = shapes.then(|| self.model.inverted(&self.state.other)).flatten() {
             self.fail(Kind::ElementInverted, &format!("{element} has no area left"));
         }
     }
 
     fn fail(&mut self, kind: Kind, seen: &str) {
-        if self.outcome == Outcome::Running {
-            self.outcome = self.judge().outcome(kind, seen);
+        if self.outcome != Outcome::Running {
+            return;
         }
+        let n = self.state.steps.saturating_sub(1);
+        if self.history.energy_steps.last() != Some(&n) {
+            let e = energy::at_the_end(&self.model, &self.state, &self.work.rows, &mut self.momentum);
+            self.history.sample(n, e, self.watch.damping_loss, &self.momentum);
+        }
+        self.outcome = self.judge().outcome(kind, seen);
     }
 
     fn judge(&self) -> Judge<'_> {

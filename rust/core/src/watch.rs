@@ -1,5 +1,6 @@
 //! The watch: what the active rows do to the energy of the bodies, and how fast they swing. Rows only, every step.
 
+use crate::energy::Energies;
 use crate::lane::Lane;
 use crate::mass_block::RowForces;
 use crate::model::Model;
@@ -12,7 +13,7 @@ pub const TOLERANCE: f64 = 0.05;
 pub const RUNAWAY: f64 = 100.0;
 
 /// Work and frequencies of the rows so far.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Watch {
     /// Work of the rows on the bodies (J/m), `dt sum lambda G v_n`: exact for central differences.
     pub work: f64,
@@ -22,36 +23,51 @@ pub struct Watch {
     pub damping_loss: f64,
     /// Energy of the bodies had the rows done no work (J/m), the most of all samples.
     pub reference: f64,
+    /// Kinetic and strain energy of the last sample (J/m).
+    pub present: f64,
     /// Largest frequency squared of a single row (1/s^2).
     pub row_omega2: f64,
-    /// First node of that row: the secondary node of a contact.
-    pub row_node: u32,
+    /// Rows of the step whose frequencies squared had the largest sum: the set that swings fastest together.
+    pub stiffest: Vec<Row>,
+    stiffest_sum: f64,
 }
 
 impl Watch {
     /// Takes in the rows of a step; `after` is v_{n+1/2}.
     pub fn step(&mut self, model: &Model, dt: f64, rows: &[Row], forces: &RowForces, after: Lane) {
+        let mut sum = 0.0;
         for ((row, lambda), before) in rows.iter().zip(&forces.lambda).zip(&forces.before) {
             let rate = 0.5 * (before + row.along(after));
             self.work += dt * lambda * rate;
             self.damping_loss += dt * row.penalties.alpha_d * rate * rate;
             let omega2 = row.omega2(&model.inverse_mass);
-            if omega2 > self.row_omega2 {
-                (self.row_omega2, self.row_node) = (omega2, row.first_node());
-            }
+            self.row_omega2 = self.row_omega2.max(omega2);
+            sum += omega2;
+        }
+        if sum > self.stiffest_sum {
+            self.stiffest_sum = sum;
+            self.stiffest.clear();
+            self.stiffest.extend_from_slice(rows);
         }
         // Lets NaN through, unlike f64::max.
         self.most = if self.work <= self.most { self.most } else { self.work };
     }
 
-    /// Takes in a sample of the bodies' energy (J/m), kinetic and strain.
-    pub fn sample(&mut self, energy: f64) {
-        self.reference = self.reference.max(energy - self.work);
+    /// Takes in a sample of the bodies' energies.
+    pub fn sample(&mut self, energies: &Energies) {
+        self.reference = self.reference.max(energies.half_step - self.work);
+        self.present = energies.kinetic + energies.strain;
     }
 
     /// True when contact has added more than `share` of the reference energy, or when that is not a number.
     pub fn passed(&self, share: f64) -> bool {
         self.reference > 0.0 && (self.most.is_nan() || self.most > share * self.reference)
+    }
+
+    /// True when the bodies have much more energy than they had and contact gave them: the mesh itself is unstable.
+    pub fn swollen(&self) -> bool {
+        let known = 2.0 * (self.reference + self.most);
+        self.present.is_nan() || self.present > known
     }
 
     /// Energy added by the rows over the reference.

@@ -70,7 +70,7 @@ fn active_rows_within_half_a_percent() {
                 "{ps} {mass:?}: {found:?} {exact}"
             );
             assert!(found.upper >= exact);
-            let added = rows::largest_inverse_mass(&model, &run.work.rows) * run.work.rows[0].penalties.alpha_s;
+            let added = rows::largest_stiffening(&model, &run.work.rows) * ps;
             assert!(exact <= dense(&model, &[]) + added + 1e-9 * exact);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bipenalty::critical_step::rows::worst_inverse_mass;
+use bipenalty::critical_step::rows::worst_stiffening;
 use bipenalty::critical_step::{assembled_bound, element_bound};
 use bipenalty::scene::Scene;
 use numpy::{PyArray1, PyArray2};
@@ -50,9 +50,9 @@ impl Model {
         py.detach(|| assembled_bound(&self.inner))
     }
 
-    /// Largest G M^-1 G' (1/kg) that a single contact row can have.
-    fn worst_inverse_mass(&self) -> f64 {
-        worst_inverse_mass(&self.inner)
+    /// Largest E G M^-1 G' (N/m^2 per kg) that contact rows on one pair of nodes can have.
+    fn worst_stiffening(&self) -> f64 {
+        worst_stiffening(&self.inner)
     }
 
     /// Reference coordinates of all nodes, (n, 2) in m.

@@ -113,12 +113,12 @@ impl Run {
         self.inner.work.rows.iter().zip(forces).map(|(row, lambda)| (row.gap, *lambda)).collect()
     }
 
-    /// Critical time step (s) with the rows of the last step active for good, and their largest G M^-1 G' (1/kg).
+    /// Critical time step (s) with the rows of the last step active for good, and their largest E G M^-1 G'.
     fn active_limits(&self, py: Python<'_>) -> (f64, f64) {
         let (model, rows) = (&self.inner.model, &self.inner.work.rows);
         py.detach(|| {
             let omega2 = rows::largest_omega2(model, rows).upper;
-            (2.0 / omega2.sqrt(), rows::largest_inverse_mass(model, rows))
+            (2.0 / omega2.sqrt(), rows::largest_stiffening(model, rows))
         })
     }
 

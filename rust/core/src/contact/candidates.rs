@@ -60,7 +60,7 @@ impl Near<'_> {
         candidates: &mut Candidates,
     ) {
         let p = self.posed.node(secondary.node);
-        self.around(p, near);
+        self.around(p, self.posed.surface.reach(), near);
         let Some(nearest) = self.posed.nearest(p, near.iter().copied()) else { return };
         let (gap, distance) = (self.posed.signed_gap(p, nearest), nearest.1.distance2.sqrt());
         // An outside node farther than the skin cannot arrive; past the end of an open surface the side is unknown.
@@ -68,7 +68,12 @@ impl Near<'_> {
             return;
         }
         let faces = faces(&self.posed, secondary);
-        let facing = self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
+        let mut facing = self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
+        if facing.is_none() && self.posed.surface.is_closed() {
+            // Past the middle of the body: the side it came from is farther away than that.
+            self.around(p, self.posed.surface.size, near);
+            facing = self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
+        }
         let reach = distance + 2.0 * self.skin;
         let reach_facing = facing.map_or(0.0, |(_, f)| f.distance2.sqrt() + 2.0 * self.skin);
         for &segment in near.iter() {
@@ -81,9 +86,9 @@ impl Near<'_> {
         candidates.push(index);
     }
 
-    /// Segments whose box is within reach of a point.
-    fn around(&self, p: [f64; 2], near: &mut Vec<u32>) {
-        let reach = self.posed.surface.reach() + self.skin;
+    /// Segments whose box is within reach of a point, and a skin more.
+    fn around(&self, p: [f64; 2], reach: f64, near: &mut Vec<u32>) {
+        let reach = reach + self.skin;
         let (low, high) = (Vector::new(p[0] - reach, p[1] - reach), Vector::new(p[0] + reach, p[1] + reach));
         let around = BvhNode::leaf(Aabb::new(low, high), 0);
         near.clear();

@@ -1,6 +1,7 @@
 //! Contact: candidate pairs from the broad phase, gaps from the narrow phase, rows for what penetrates.
 
 pub mod candidates;
+pub mod crossing;
 pub mod gap;
 pub mod overlap;
 pub mod pair;

@@ -12,18 +12,21 @@ use crate::row::Row;
 /// Relative error allowed for in the squared frequency of a constrained system.
 const EPSILON: f64 = 0.004;
 
-/// Largest eigenvalue of G M^-1 G' (1/kg) over the rows: alpha_s times it bounds what a stiffness penalty adds to omega^2.
-pub fn largest_inverse_mass(model: &Model, rows: &[Row]) -> f64 {
+/// Largest eigenvalue of E^1/2 G M^-1 G' E^1/2 (N/m^2 per kg) over the rows, E the moduli that scale their penalties:
+/// p_s times it bounds what a stiffness penalty adds to omega^2.
+pub fn largest_stiffening(model: &Model, rows: &[Row]) -> f64 {
     if rows.is_empty() {
         return 0.0;
     }
     let gradient = scaled_gradients(rows, &scale(model));
-    gram(&gradient).symmetric_eigenvalues().max()
+    let root = DVector::from_iterator(rows.len(), rows.iter().map(|row| row.behind.young.sqrt()));
+    let root = DMatrix::from_diagonal(&root);
+    (&root * gram(&gradient) * &root).symmetric_eigenvalues().max()
 }
 
-/// Largest G M^-1 G' (1/kg) that a single contact row of the model can have, whatever touches what: the lightest node
-/// of one surface on the lightest of the other.
-pub fn worst_inverse_mass(model: &Model) -> f64 {
+/// The same for the worst row that can come about, whatever touches what: the lightest node of one surface on the lightest
+/// of the other, once for each pair that joins the two (a second pass, a contact listed twice).
+pub fn worst_stiffening(model: &Model) -> f64 {
     let lightest = |nodes: &mut dyn Iterator<Item = u32>| -> f64 {
         nodes.map(|n| model.inverse_mass[n as usize].into_iter().fold(0.0, f64::max)).fold(0.0, f64::max)
     };
@@ -34,7 +37,12 @@ pub fn worst_inverse_mass(model: &Model) -> f64 {
         };
         primary + lightest(&mut pair.secondary.iter().map(|s| s.node))
     };
-    model.pairs.iter().map(of_pair).fold(0.0, f64::max)
+    let joins = |a: &Pair, b: &Pair| {
+        let ends = |p: &Pair| (p.primary_body, Some(p.secondary_body));
+        ends(a) == ends(b) || ends(a) == (ends(b).1, ends(b).0)
+    };
+    let together = |pair: &Pair| model.pairs.iter().filter(|p| joins(pair, p)).map(|p| p.young * of_pair(p)).sum();
+    model.pairs.iter().map(together).fold(0.0, f64::max)
 }
 
 /// Largest omega^2 (1/s^2) of `K + G'A_s G` over `M + G'A_m G` with these rows active for good.
