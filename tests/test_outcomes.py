@@ -439,7 +439,7 @@ def caught(scene: bp.Scene, end: float, thickness: float) -> str:
     return "silent" if lowest < -thickness else "held"
 
 
-@pytest.mark.parametrize(("thickness", "speed"), [(0.2, 1.0), (0.2, 3.0), (0.05, 1.0), (0.05, 3.0)])
+@pytest.mark.parametrize(("thickness", "speed"), [(0.2, 1.0), (0.2, 3.0), (0.1, 3.0), (0.05, 1.0), (0.05, 3.0)])
 def test_plate_thicker_than_a_step_holds(thickness: float, speed: float) -> None:
     step = speed * bp.Model(plate(thickness, speed)).dt
     assert step < 1.5 * thickness
@@ -452,6 +452,16 @@ def test_thin_plate_crossed_in_one_step_is_not_silent(thickness: float, speed: f
     """v dt above the thickness: refused, "contact missed" or held; with a node below the plate it is not "finished"."""
     assert speed * bp.Model(plate(thickness, speed)).dt > thickness
     assert caught(plate(thickness, speed), 2.0, thickness) in ("refused", "contact missed", "held")
+
+
+@pytest.mark.parametrize("velocity", [(0, 3), (3, 0)], ids=["away", "past"])
+def test_fast_body_that_meets_nothing_goes_on(velocity: tuple[float, float]) -> None:
+    """Six times the plate's thickness a step, but away from it, or past it 0.2 m above: nothing can be missed."""
+    falling = block(at=(0, 0.3), density=1.0, mesh=bp.mesh.rectangle(1, 1, 2, 2).rotated(0.1), velocity=velocity)
+    thin = bp.Polyline("plate", [(-2, -0.01), (3, -0.01), (3, 0), (-2, 0)], closed=True)
+    scene = bp.Scene([falling], [bp.Contact("block", "plate")], obstacles=[thin])
+    assert 3 * bp.Model(scene).dt > 6 * 0.01
+    assert_clean(run(scene, PARAMETER_FREE, 1.0), 1e-9)
 
 
 @pytest.mark.parametrize("speed", [100.0, 300.0, 1000.0])

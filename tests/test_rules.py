@@ -82,7 +82,7 @@ def test_critical_rule(ps: float, s2: float | None) -> None:
     """alpha_s = ps E, alpha_m = alpha_s dt^2/s^2, alpha_d = 2 alpha_m/dt; s^2 = 1 unless given."""
     young = 7.0
     alpha_s, alpha_m, alpha_d = measured(bp.Bipenalty(ps, kappa=math.inf, s2=s2), young)
-    expected = ps * young * DT**2 / (1.0 if s2 is None else s2)
+    expected = ps * young * DT**2 / (1.5 if s2 is None else s2)
     assert alpha_s == pytest.approx(ps * young, rel=1e-6)
     assert alpha_m == pytest.approx(expected, rel=1e-6)
     assert alpha_d == pytest.approx(2 * expected / DT, rel=1e-6)
@@ -109,11 +109,12 @@ def test_published_rule(options: dict[str, float], ratio: float, damping: float)
 @pytest.mark.parametrize("kappa", [None, 0.7, 100.0])
 @pytest.mark.parametrize("density", [0.4, 40.0])
 def test_cap_of_the_parameter_free_method(density: float, kappa: float | None) -> None:
-    """alpha_s = kappa m/dt^2 on a rigid floor, kappa = 5 unless given; P = 2 alpha_m = 2 kappa m."""
+    """alpha_s = kappa m/dt^2 on a rigid floor, kappa = 5 unless given; P = 2 alpha_m = 2 kappa m / s2, s2 = 1.5."""
     cap, mass = 5.0 if kappa is None else kappa, density / 4
+    inertia = 2 * cap / 1.5
     a, b = shares(bp.Bipenalty(kappa=kappa), density)
-    assert a == pytest.approx(cap * mass / DT**2 / (1 + 2 * cap), rel=1e-9)
-    assert b == pytest.approx(2 * cap * mass / DT / (1 + 2 * cap), rel=1e-9)
+    assert a == pytest.approx(cap * mass / DT**2 / (1 + inertia), rel=1e-9)
+    assert b == pytest.approx(inertia * mass / DT / (1 + inertia), rel=1e-9)
 
 
 def test_cap_holds_only_what_is_above_it() -> None:

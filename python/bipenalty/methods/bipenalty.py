@@ -19,7 +19,7 @@ class Bipenalty:
     rule : "critical" or "published".
     kappa : cap alpha_s <= kappa m_e/dt^2 with m_e = 1/(G M^-1 G') the row's effective mass, -, > 0, infinite for no cap;
         5 for the critical rule and no cap for the published one unless given.
-    s2 : s^2 = R dt^2 of the critical rule, -, in (0, 2).
+    s2 : s^2 = R dt^2 of the critical rule, -, in (0, 2); 1.5 unless given.
     R, R_safety : penalty ratio of the published rule, 1/s^2, > 0; R_safety * 4/dt^2 unless R is given.
     D, zeta : damping of the published rule: alpha_d = D alpha_s (s) or 2 zeta sqrt(alpha_s alpha_m) (-).
 
@@ -93,7 +93,7 @@ class Bipenalty:
     def mass_rule(self) -> Rule:
         """alpha_m = alpha_s / R."""
         if self.rule == "critical":
-            return "critical", 1.0 if self.s2 is None else self.s2
+            return "critical", 1.5 if self.s2 is None else self.s2
         if self.R is not None:
             return "ratio", self.R
         return "ratio from step", 0.9 if self.R_safety is None else self.R_safety

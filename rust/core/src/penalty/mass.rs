@@ -27,7 +27,7 @@ impl Mass {
             Self::RatioFromStep(safety) => positive(object, "R_safety", safety, "0.9 keeps dt within its limit"),
             Self::Critical(s2) if s2 > 0.0 && s2 < 2.0 => Ok(()),
             Self::Critical(s2) => {
-                let remedy = "1 is the usual choice; from 2 on the gap crosses zero as it closes";
+                let remedy = "1.5 is the usual choice; from 2 on the gap crosses zero as it closes";
                 Err(Error::bound(object, "s2", s2, "in (0, 2)", remedy))
             }
         }
