@@ -151,13 +151,25 @@ impl Run {
         } else if displacement > self.displacement_limit {
             let (found, limit) = (short(displacement), short(self.displacement_limit));
             self.fail(Kind::DisplacementLimit, &format!("displacement {found} m passed the limit {limit} m"));
-        } else if let Some((step, most)) = crossing::too_fast(&self.model, &self.state, self.settings.dt) {
+        } else if let Some((step, most)) = self.too_fast() {
             let (step, most) = (short(step), short(most));
             let seen = format!("surfaces moved {step} m in one step, contact follows {most} m: reduce dt or speed;");
             self.fail(Kind::ContactMissed, &seen);
         } else if let Some(element) = shapes.then(|| self.model.inverted(&self.state.other)).flatten() {
             self.fail(Kind::ElementInverted, &format!("{element} has no area left"));
         }
+    }
+
+    fn too_fast(&self) -> Option<(f64, f64)> {
+        let lane = |values| Lane::new(values, self.state.lanes, 0);
+        let motion = crossing::Motion {
+            points: &self.model.points,
+            displacement: lane(&self.state.other),
+            velocity: lane(&self.state.velocity),
+            dt: self.settings.dt,
+        };
+        // One step beyond the next look.
+        crossing::too_fast(&self.model.pairs, &self.work.search.candidates, motion, LOOK_EVERY as f64 + 1.0)
     }
 
     fn fail(&mut self, kind: Kind, seen: &str) {
