@@ -87,7 +87,8 @@ class Model:
         """Limits of the time step: elements, assembled matrix, and the rows active in the last step."""
         mesh = self._core.assembled_critical_dt()
         # A ratio that follows the time step keeps omega^2 <= max(omega_0^2, R) at every one: rows cost nothing.
-        follows = self.method.mass_rule[0] in ("ratio from step", "critical") and self.R <= 4 / self.dt**2
+        limit = 4 / self.dt**2
+        follows = self.method.mass_rule[0] in ("ratio from step", "critical") and limit >= self.R
         rows = self._run.active_limits()[0] if self._run.rows and not follows else mesh
         return CriticalStep(self.critical_dt, mesh, min(mesh, rows), self.dt)
 
