@@ -729,6 +729,8 @@ def ctrl_c(after: float) -> Iterator[None]:
         os.kill(os.getpid(), signal.SIGINT)
 
     timer = threading.Timer(after, press)
+    # A process started in the background of a script ignores the signal; these tests want it.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer.start()
     try:
         yield
@@ -737,6 +739,7 @@ def ctrl_c(after: float) -> Iterator[None]:
     finally:
         timer.cancel()
         timer.join()
+        signal.signal(signal.SIGINT, before)
 
 
 def test_ctrl_c_during_a_run() -> None:
