@@ -39,13 +39,13 @@ pub(crate) fn add_contact(model: &mut Model, spec: &ContactSpec, obstacles: &[(S
             return Err(Error::bound(&object, "passes", 2, "1 against a rigid obstacle", remedy));
         }
         let primary = rigid(&spec.primary, obstacle)?;
-        pairs.push(pair(model, contact, [body, body], secondary, primary, None));
+        pairs.push(pair(model, contact, body, secondary, primary, None));
     } else {
         let (other, primary) =
             find_body(&model.bodies, &spec.primary, &object).map_err(|e| with_obstacles(e, obstacles))?;
-        pairs.push(pair(model, contact, [body, body], secondary, Primary::Surface(model.surface(other)), Some(other)));
+        pairs.push(pair(model, contact, body, secondary, Primary::Surface(model.surface(other)), Some(other)));
         if spec.passes == 2 {
-            pairs.push(pair(model, contact, [body, other], primary, Primary::Surface(model.surface(body)), Some(body)));
+            pairs.push(pair(model, contact, other, primary, Primary::Surface(model.surface(body)), Some(body)));
         }
     }
     let length = pairs.iter().map(Pair::segment_length).fold(f64::INFINITY, f64::min);
@@ -67,7 +67,7 @@ fn with_obstacles(error: Error, obstacles: &[(String, Obstacle)]) -> Error {
 fn pair(
     model: &Model,
     contact: u32,
-    [first_named, secondary_body]: [u32; 2],
+    secondary_body: u32,
     secondary: &Body,
     primary: Primary,
     primary_body: Option<u32>,
@@ -79,20 +79,9 @@ fn pair(
     };
     let secondary_length = nodes.iter().map(length).sum::<f64>() / nodes.len() as f64;
     let young = primary_body.map_or(0.0, |b| model.bodies[b as usize].young).max(secondary.young);
-    let first_pass = secondary_body == first_named;
     let node_stiffness = if primary_body.is_some() { HashMap::new() } else { node_stiffness(secondary) };
     let secondary = nodes;
-    Pair {
-        contact,
-        first_pass,
-        secondary_body,
-        primary_body,
-        secondary,
-        secondary_length,
-        primary,
-        young,
-        node_stiffness,
-    }
+    Pair { contact, secondary_body, primary_body, secondary, secondary_length, primary, young, node_stiffness }
 }
 
 /// Mean of the two edges that meet at each node.

@@ -1,10 +1,14 @@
 //! The model: a scene lowered to arrays that never change.
 
+use std::sync::OnceLock;
+
 pub use crate::body::Body;
 use crate::boundary::{boundary_loops, edge_stiffness};
 use crate::constraint::linear::Linear;
 use crate::contact::surface::{Vertices, position};
 use crate::contact::{Pair, Surface};
+use crate::critical_step::assembled::largest_omega2;
+use crate::critical_step::lanczos::Largest;
 use crate::element::signed_area;
 use crate::error::{Error, Result};
 use crate::lane::Lane;
@@ -47,6 +51,8 @@ pub struct Model {
     pub pairs: Vec<Pair>,
     /// Rows that are always active.
     pub linear: Vec<Linear>,
+    /// Largest omega^2 of the assembled matrix, once it has been asked for.
+    assembled: OnceLock<Largest>,
 }
 
 impl Model {
@@ -66,6 +72,7 @@ impl Model {
             contacts: Vec::new(),
             pairs: Vec::new(),
             linear: scene.linear,
+            assembled: OnceLock::new(),
         };
         if scene.bodies.is_empty() {
             return Err(Error::bound("scene", "number of bodies", 0, ">= 1", "add a body"));
@@ -132,6 +139,11 @@ impl Model {
             element_omega: parts.element_omega,
         });
         Ok(())
+    }
+
+    /// Largest omega^2 (1/s^2) of the assembled matrix; found at the first call and kept.
+    pub fn assembled_omega2(&self) -> Largest {
+        *self.assembled.get_or_init(|| largest_omega2(self))
     }
 
     /// Largest element eigenfrequency of all bodies (rad/s).

@@ -1,6 +1,5 @@
 //! How a run ended, and the sentence that says why.
 
-use crate::critical_step::assembled::largest_omega2;
 use crate::critical_step::rows;
 use crate::error::short;
 use crate::model::Model;
@@ -78,27 +77,26 @@ pub(crate) struct Judge<'a> {
 impl Judge<'_> {
     /// The outcome of a run in which `seen` was noticed as a `kind`: a deeper cause takes its place if there is one.
     pub(crate) fn outcome(&self, kind: Kind, seen: &str) -> Outcome {
-        let (mesh, row) = (self.mesh(), self.watch.row_omega2.sqrt() * self.dt);
+        let (mesh, ratio) = (self.mesh(), self.ratio.sqrt() * self.dt);
         let time = format!("t = {} s", short(self.time));
         let gained = self.watch.passed(TOLERANCE);
-        let energy = || format!("contact has added {} times the energy there was", short(self.watch.gain()));
+        let rows = self.rows(gained);
         let (kind, why) = if mesh > 2.0 {
             let stiffest = self.model.bodies.iter().max_by(|a, b| a.element_omega.total_cmp(&b.element_omega));
             let (name, omega) = (stiffest.map_or("", |b| &b.name), short(mesh));
             let why = format!("omega dt = {omega} of the mesh (stiffest elements in \"{name}\") is above 2; reduce dt");
             (Kind::SpectralInstability, why)
-        } else if self.ratio.is_finite() && self.ratio.sqrt() * self.dt > 2.0 && gained {
-            let omega = short(self.ratio.sqrt() * self.dt);
+        } else if ratio.is_finite() && ratio > 2.0 && gained {
+            let omega = short(ratio);
             (Kind::SpectralInstability, format!("omega dt = {omega} of the penalty ratio, above 2; lower R to 4/dt^2"))
-        } else if let Some(omega) = self.rows_too_fast(row, gained) {
-            let why = format!("omega dt = {} with the contact row{}, above 2;", short(omega), self.place());
+        } else if rows > 2.0 {
+            let why = format!("omega dt = {} with the contact row{}, above 2;", short(rows), self.place());
             (Kind::SpectralInstability, format!("{why} lower p_s, reduce dt or add a mass penalty"))
         } else if gained {
-            let set = || rows::largest_omega2(self.model, &self.watch.stiffest).found.sqrt() * self.dt;
-            let bound = if self.ratio.is_finite() { mesh.max(self.ratio.sqrt() * self.dt) } else { set() };
-            let remedy = "use rule=\"critical\", add damping or lower p_s";
-            let within = format!("though omega dt = {} is within 2", short(bound));
-            (Kind::EnergyMade, format!("{} {within}: rows that open and close make it; {remedy}", energy()))
+            let within = short(if ratio.is_finite() { mesh.max(ratio) } else { rows });
+            let made = format!("contact has added {} times the energy there was", short(self.watch.gain()));
+            let why = format!("{made} though omega dt = {within} is within 2: rows that open and close make it;");
+            (Kind::EnergyMade, format!("{why} use rule=\"critical\", add damping or lower p_s"))
         } else {
             return Outcome::Failed(kind, format!("{seen} at {time}"));
         };
@@ -109,31 +107,25 @@ impl Judge<'_> {
     /// omega dt of the mesh: the element bound where that is within the limit, the assembled matrix where it is not.
     fn mesh(&self) -> f64 {
         let elements = self.model.element_omega() * self.dt;
-        if elements <= 2.0 { elements } else { largest_omega2(self.model).found.sqrt() * self.dt }
+        if elements <= 2.0 { elements } else { self.model.assembled_omega2().found.sqrt() * self.dt }
     }
 
-    /// omega dt of the active rows where that is above 2 and no mass penalty keeps it down: a single row's own, or, where
-    /// energy has been made, that of the mesh with the stiffest set of rows there has been.
-    fn rows_too_fast(&self, row: f64, gained: bool) -> Option<f64> {
+    /// omega dt of the active rows where no mass penalty keeps it down, else 0: a single row's own, or, where that is
+    /// within 2 and energy has been made, that of the mesh with the stiffest set of rows there has been.
+    fn rows(&self, gained: bool) -> f64 {
+        let row = self.watch.row_omega2.sqrt() * self.dt;
         if self.ratio.is_finite() {
-            return None;
-        }
-        let set = || rows::largest_omega2(self.model, &self.watch.stiffest).found.sqrt() * self.dt;
-        let omega = if row > 2.0 {
-            row
-        } else if gained {
-            set()
-        } else {
             0.0
-        };
-        (omega > 2.0).then_some(omega)
+        } else if row <= 2.0 && gained {
+            rows::largest_omega2(self.model, &self.watch.stiffest).found.sqrt() * self.dt
+        } else {
+            row
+        }
     }
 
     /// True when a limit is passed for certain, whether or not anything has come of it.
     pub(crate) fn past_a_limit(&self) -> bool {
-        let elements = self.model.element_omega() * self.dt;
-        let row = self.watch.row_omega2.sqrt() * self.dt;
-        (self.ratio.is_infinite() && row > 2.0) || (elements > 2.0 && self.watch.swollen() && self.mesh() > 2.0)
+        self.rows(false) > 2.0 || (self.watch.swollen() && self.mesh() > 2.0)
     }
 
     /// Where the stiffest rows are.

@@ -67,12 +67,6 @@ impl Model {
         PyArray1::from_slice(py, &self.inner.mass)
     }
 
-    /// First node of each body and one past its last.
-    #[getter]
-    fn body_nodes(&self) -> Vec<(usize, usize)> {
-        self.inner.bodies.iter().map(|body| (body.nodes.start, body.nodes.end)).collect()
-    }
-
     /// Names of the contacts, "secondary on primary".
     #[getter]
     fn contacts(&self) -> Vec<String> {

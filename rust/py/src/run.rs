@@ -72,11 +72,6 @@ impl Run {
         Ok(())
     }
 
-    /// Forgets what has been observed.
-    fn clear_history(&mut self) {
-        self.inner.history = Default::default();
-    }
-
     /// Takes up to `steps` steps without the interpreter's lock; the last one is sampled when `last` says so.
     fn advance(&mut self, py: Python<'_>, steps: u64, last: bool) {
         py.detach(|| self.inner.advance(steps, last));
@@ -120,18 +115,6 @@ impl Run {
             let omega2 = rows::largest_omega2(model, rows).upper;
             (2.0 / omega2.sqrt(), rows::largest_stiffening(model, rows))
         })
-    }
-
-    /// How often the broad phase has searched.
-    #[getter]
-    fn searches(&self) -> usize {
-        self.inner.work.search.count
-    }
-
-    /// How often the mass block's pattern has been analysed.
-    #[getter]
-    fn analyses(&self) -> usize {
-        self.inner.work.block.analyses()
     }
 
     /// Displacement u_n, a read-only (n, 2) view in m; valid until the next step.

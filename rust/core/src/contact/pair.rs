@@ -39,8 +39,6 @@ pub enum Primary {
 pub struct Pair {
     /// Which contact of the scene it serves; a contact of two passes has two pairs.
     pub contact: u32,
-    /// True for the pair whose secondary nodes belong to the contact's first-named body.
-    pub first_pass: bool,
     /// Body of the secondary nodes.
     pub secondary_body: u32,
     /// Body of the primary surface; none when rigid.

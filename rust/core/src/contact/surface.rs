@@ -77,14 +77,6 @@ impl Surface {
         (0.5 * self.extent).max(2.0 * self.mean_length)
     }
 
-    /// Number of vertices.
-    pub fn vertex_count(&self) -> usize {
-        match &self.vertices {
-            Vertices::Nodes(nodes) => nodes.len(),
-            Vertices::Fixed(points) => points.len(),
-        }
-    }
-
     /// Node of a vertex; none on a rigid obstacle.
     #[inline]
     pub fn node(&self, vertex: u32) -> Option<u32> {

@@ -8,7 +8,7 @@ use crate::model::Model;
 
 /// Critical time step 2/omega (s) of the assembled matrix, from an upper bound of its largest frequency.
 pub fn assembled_bound(model: &Model) -> f64 {
-    2.0 / assembled::largest_omega2(model).upper.sqrt()
+    2.0 / model.assembled_omega2().upper.sqrt()
 }
 
 /// Critical time step 2/omega (s) of the element bound (Irons and Fried 1971).

@@ -111,8 +111,3 @@ fn inverse_root_correction(rows: &[Row], gradient: &[Sparse]) -> DMatrix<f64> {
     let v = DMatrix::from_diagonal(&root) * &eigen.eigenvectors;
     &v * DMatrix::from_diagonal(&weight) * v.transpose()
 }
-
-/// Largest stiffness penalty (N/m per m) that leaves `omega_0^2 + alpha_s lambda_max(G M^-1 G')` within 4/dt^2.
-pub fn critical_alpha_s(omega2: f64, largest_inverse_mass: f64, dt: f64) -> f64 {
-    ((4.0 / (dt * dt) - omega2) / largest_inverse_mass).max(0.0)
-}
