@@ -122,10 +122,17 @@ def test_published_rule_makes_energy_inside_its_limit() -> None:
 
 
 def test_zeta_of_one_is_not_enough() -> None:
-    """The published ratio with zeta = 1 still makes 9 % at p_s = 1e3; the critical rule at the same p_s makes none."""
+    """The published ratio with zeta = 1 still makes energy at p_s = 1e4; the critical rule at the same p_s makes none.
+
+    How much is chaotic: 6 to 10 % for p_s that differ in their ninth digit.
+    """
     scene = scenes.cylinders()
-    assert run(scene, bp.Bipenalty(1e3, rule="published", zeta=1.0), 0.18).outcome == "energy made by contact"
-    assert_clean(run(scene, bp.Bipenalty(1e3), 0.18), 0.002)
+    factors = [bp.Bipenalty(1e4 * (1 + k * 1e-9), rule="published", zeta=1.0) for k in range(4)]
+    made = bp.sweep(scene, factors, 0.18)
+    assert (made.energy_made > 0.03).all()
+    assert made.energy_made.median() > 0.05
+    assert (made.outcome == "energy made by contact").sum() >= 2
+    assert_clean(run(scene, bp.Bipenalty(1e4), 0.18), 0.002)
 
 
 # ---- the mesh

@@ -115,7 +115,7 @@ def test_where_the_stiffness_penalty_fails(study: Study) -> None:
 def test_bipenalty_at_large_parameters(study: Study) -> None:
     """Stable in the spectral sense, yet of no use: noise, energy and penetration; with two passes it fails as well.
 
-    Measured: energy over 2 from p_s = 100; 1 m passed from p_s = 1.8e3 with two passes, never with one.
+    Measured: energy over 2 from p_s = 100; 1 m passed from p_s = 460 to 1.8e3 with two passes (chaotic), never with one.
     """
     large = PS > 150
     assert (study.along(BIPENALTY, "energy_ratio")[large] > 1.8).all()
@@ -123,7 +123,7 @@ def test_bipenalty_at_large_parameters(study: Study) -> None:
     smallest = study.along(BIPENALTY, "max_penetration").min()
     assert (study.along(BIPENALTY, "max_penetration")[large] > 3 * smallest).all()
     failed = study.along(BIPENALTY, "failed")
-    assert not failed[PS < 500].any()
+    assert not failed[PS < 300].any()
     assert failed[PS > 5000].mean() > 0.5 if study.passes == 2 else not failed.any()
     assert (study.along(BIPENALTY, "outcome")[large] == "energy made by contact").all()
     reasons = study.along(BIPENALTY, "reason")[failed]

@@ -35,6 +35,8 @@ class Model:
     dt : "element" or "assembled" for `safety` times that limit of the mesh, or seconds.
     safety : share of the limit, in (0, 1]; 0.5 of "element" and 0.98 of "assembled" unless given.
     allow_unstable : accept a dt above the mesh's limit.
+    isa : instruction set, "auto" or one of `_core.instruction_sets()`: a run is the same to the last bit on every
+        machine that has it.
 
     Raises
     ------
@@ -58,6 +60,7 @@ class Model:
         dt: str | float = "element",
         safety: float | None = None,
         allow_unstable: bool = False,
+        isa: str = "auto",
     ) -> None:
         self.scene = scene
         self.method: Method = checks.method("model", "method", Bipenalty() if method is None else method)
@@ -65,7 +68,7 @@ class Model:
         self.critical_dt: float = self._core.critical_dt
         self.dt = time_step(self._core, dt, safety)
         start = (scene.velocity, scene.displacement)
-        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start)
+        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start, isa)
         self._seconds = 0.0
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import xarray as xr
 
 from bipenalty import _core, checks, progress
 from bipenalty.critical_step import time_step
+from bipenalty.errors import InputError
 from bipenalty.lower import lower
 from bipenalty.methods import Method
 from bipenalty.model import SLICE
@@ -42,6 +44,7 @@ def sweep(
     displacement_limit: float | None = None,
     histories: bool = True,
     threads: int | None = None,
+    lanes: int = 0,
     show_progress: bool | None = None,
 ) -> xr.Dataset:
     """Run a scene with each method; a failed run is a labelled entry, never an exception for the rest.
@@ -85,13 +88,13 @@ def sweep(
     limit = None if displacement_limit is None else checks.number("sweep", "displacement_limit", displacement_limit)
     batch = _core.Batch(
         core,
-        [(m, step, n) for m in methods],
-        allow_unstable,
+        [SimpleNamespace(method=m, dt=step, steps=n, velocity=None, offset=None, young=None, density=None) for m in methods],
         scene.velocity,
         scene.displacement,
-        limit,
-        int(histories),
-        10,
+        allow_unstable=allow_unstable,
+        displacement_limit=limit,
+        every=int(histories),
+        lanes=lanes,
     )
     interrupted = _work(batch, len(methods) * n * scene.n_nodes, min(workers, len(methods)), show_progress)
     attributes = {
@@ -102,7 +105,10 @@ def sweep(
         "displacement_limit": math.inf if limit is None else limit,
         "interrupted": int(interrupted),
     }
-    return _dataset([batch.observations(i) for i in range(len(methods))], methods, step, n, histories, attributes)
+    seen = [batch.observations(i) for i in range(len(methods))]
+    if first := next((run for run in seen if run and run["outcome"] == "refused"), None):
+        raise InputError(first["reason"])
+    return _dataset(seen, methods, step, n, histories, attributes)
 
 
 def _work(batch: _core.Batch, node_steps: int, threads: int, show: bool | None) -> bool:

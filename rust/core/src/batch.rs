@@ -1,89 +1,161 @@
-//! A batch: many runs over one model, a few threads, each run on its own and in its own time.
+//! A batch: many runs over one model, in lanes and on threads; a lane whose run is over takes the next one.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::outcome::Outcome;
-use crate::run::Run;
+use crate::ended::{Ended, Summary};
+use crate::group::{Group, WIDTHS};
+use crate::model::Model;
+use crate::run::RunSpec;
+use crate::stiffness::Isa;
 
 /// Steps between two looks at the clock.
 const STRIDE: u64 = 64;
 
-/// Runs with the number of steps each is to take.
+/// Lanes of a group unless asked for otherwise.
+const USUAL_WIDTH: usize = 16;
+
+/// Runs that wait, runs that are under way, and what is left of those that have ended.
 pub struct Batch {
-    slots: Vec<Mutex<Slot>>,
+    model: Arc<Model>,
+    isa: Isa,
+    width: usize,
+    specs: Vec<RunSpec>,
+    next: AtomicUsize,
+    finished: AtomicUsize,
+    ended: Vec<Mutex<Option<Ended>>>,
+    workers: Mutex<Vec<Arc<Mutex<Worker>>>>,
 }
 
-struct Slot {
-    run: Run,
-    steps: u64,
-    seconds: f64,
-}
-
-impl Slot {
-    fn is_over(&self) -> bool {
-        self.run.outcome != Outcome::Running || self.run.state.steps >= self.steps
-    }
+/// A group with the numbers of its runs.
+struct Worker {
+    group: Group,
+    numbers: Vec<usize>,
 }
 
 impl Batch {
-    /// A batch of runs, each with the steps it is to take.
-    pub fn new(runs: Vec<(Run, u64)>) -> Self {
-        Self { slots: runs.into_iter().map(|(run, steps)| Mutex::new(Slot { run, steps, seconds: 0.0 })).collect() }
+    /// A batch of runs; `width` is the number of lanes, 0 to leave it to the batch.
+    pub fn new(model: Arc<Model>, isa: Isa, width: usize, specs: Vec<RunSpec>) -> Self {
+        let width = WIDTHS.into_iter().find(|w| *w >= width).filter(|_| width > 0).unwrap_or(USUAL_WIDTH);
+        let ended = specs.iter().map(|_| Mutex::new(None)).collect();
+        let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        Self { model, isa, width, specs, next, finished, ended, workers: Mutex::default() }
     }
 
-    /// Works on the unfinished runs, first come first served, for about `budget`; returns the node-steps done.
+    /// Works on the runs for about `budget` on `threads` threads; returns the node-steps done.
     pub fn advance(&self, threads: usize, budget: Duration) -> u64 {
-        let (next, done, until) = (AtomicUsize::new(0), AtomicU64::new(0), Instant::now() + budget);
-        let work = || {
-            while let Some(slot) = self.slots.get(next.fetch_add(1, Ordering::Relaxed)) {
-                // A run whose thread panicked is left as it stands: the others go on.
-                let Ok(mut slot) = slot.lock() else { continue };
-                done.fetch_add(slot.work(until), Ordering::Relaxed);
-                if Instant::now() >= until {
-                    return;
-                }
+        let (done, until, threads) = (AtomicU64::new(0), Instant::now() + budget, threads.max(1));
+        let work = |worker: Arc<Mutex<Worker>>| {
+            // A group whose thread panicked is left as it stands: its runs are lost, the others go on.
+            if let Ok(mut worker) = worker.lock() {
+                done.fetch_add(self.work(&mut worker, threads, until), Ordering::Relaxed);
             }
         };
-        if threads <= 1 {
-            work();
+        let mut workers = self.workers(threads);
+        if let (1, Some(only)) = (workers.len(), workers.first()) {
+            work(only.clone());
         } else {
-            std::thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+            let work = &work;
+            std::thread::scope(|scope| workers.drain(..).for_each(|worker| drop(scope.spawn(move || work(worker)))));
         }
         done.into_inner()
     }
 
+    /// One worker a thread, and those that still have runs from a call with more threads.
+    fn workers(&self, threads: usize) -> Vec<Arc<Mutex<Worker>>> {
+        let Ok(mut workers) = self.workers.lock() else { return Vec::new() };
+        while workers.len() < threads.min(self.specs.len()) {
+            let group = Group::new(self.model.clone(), self.isa, 1);
+            workers.push(Arc::new(Mutex::new(Worker { group, numbers: Vec::new() })));
+        }
+        workers.clone()
+    }
+
+    fn work(&self, worker: &mut Worker, threads: usize, until: Instant) -> u64 {
+        let mut done = 0;
+        while Instant::now() < until {
+            if self.retire(worker) {
+                self.fill(worker, threads);
+            }
+            if worker.numbers.is_empty() {
+                break;
+            }
+            let start = Instant::now();
+            let (runs, nodes) = (worker.numbers.len() as u64, self.model.points.len() as u64);
+            done += worker.group.advance(STRIDE) * runs * nodes;
+            let share = start.elapsed().as_secs_f64() / runs as f64;
+            worker.group.runs.iter_mut().for_each(|run| run.seconds += share);
+        }
+        done
+    }
+
+    /// Takes the runs that are over out of their lanes; true when that leaves room, or there are no runs.
+    fn retire(&self, worker: &mut Worker) -> bool {
+        let before = worker.numbers.len();
+        for lane in (0..before).rev() {
+            if worker.group.runs[lane].is_over() {
+                let (run, stepping) = worker.group.take(lane);
+                self.put(worker.numbers.swap_remove(lane), Ended::new(run, &stepping));
+            }
+        }
+        worker.numbers.is_empty() || worker.numbers.len() < before
+    }
+
+    /// Begins runs that wait, leaving the other threads their share, and gives up lanes that stay empty.
+    fn fill(&self, worker: &mut Worker, threads: usize) {
+        let waiting = self.specs.len().saturating_sub(self.next.load(Ordering::Relaxed));
+        let mut room = waiting.div_ceil(threads).min(self.width - worker.numbers.len());
+        worker.group.resize(worker.numbers.len() + room);
+        while room > 0 {
+            let number = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(spec) = self.specs.get(number) else { break };
+            match worker.group.begin(spec) {
+                Ok(()) => {
+                    worker.numbers.push(number);
+                    room -= 1;
+                }
+                Err(error) => self.put(number, Ended::refused(spec, &error)),
+            }
+        }
+        worker.group.resize(worker.numbers.len());
+    }
+
+    fn put(&self, number: usize, ended: Ended) {
+        if let Ok(mut place) = self.ended[number].lock() {
+            *place = Some(ended);
+            self.finished.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
     /// Number of runs that have ended.
     pub fn finished(&self) -> usize {
-        self.slots.iter().filter(|slot| slot.lock().map_or(true, |slot| slot.is_over())).count()
+        self.finished.load(Ordering::Relaxed)
     }
 
     /// Number of runs.
     pub fn len(&self) -> usize {
-        self.slots.len()
+        self.specs.len()
     }
 
     /// True for a batch without runs.
     pub fn is_empty(&self) -> bool {
-        self.slots.is_empty()
+        self.specs.is_empty()
     }
 
-    /// Looks at one run: what it is, the steps it was to take, and the seconds it took.
-    pub fn look<T>(&self, index: usize, look: impl FnOnce(&Run, u64, f64) -> T) -> Option<T> {
-        let slot = self.slots.get(index)?.lock().ok()?;
-        Some(look(&slot.run, slot.steps, slot.seconds))
-    }
-}
-
-impl Slot {
-    fn work(&mut self, until: Instant) -> u64 {
-        let (start, first) = (Instant::now(), self.run.state.steps);
-        while !self.is_over() && Instant::now() < until {
-            let left = self.steps - self.run.state.steps;
-            self.run.advance(left.min(STRIDE), left <= STRIDE);
+    /// What there is of a run: all of it when it is over, what has been seen so far while it is under way; none when the
+    /// thread that worked on it died, or there is no such run.
+    pub fn look<T>(&self, number: usize, look: impl FnOnce(&Ended) -> T) -> Option<T> {
+        if let Some(ended) = &*self.ended.get(number)?.lock().ok()? {
+            return Some(look(ended));
         }
-        self.seconds += start.elapsed().as_secs_f64();
-        (self.run.state.steps - first) * self.run.model.points.len() as u64
+        for worker in self.workers.lock().ok()?.iter() {
+            let Ok(worker) = worker.lock() else { continue };
+            if let Some(lane) = worker.numbers.iter().position(|n| *n == number) {
+                let (run, stepping) = (&worker.group.runs[lane], &worker.group.lanes[lane]);
+                return Some(look(&Ended { summary: Summary::of(run, stepping), history: run.history.clone() }));
+            }
+        }
+        (number >= self.next.load(Ordering::Relaxed)).then(|| look(&Ended::waiting(&self.specs[number])))
     }
 }

@@ -25,6 +25,10 @@ pub struct Body {
     pub edge_stiffness: Vec<f64>,
     /// Largest element eigenfrequency (rad/s).
     pub element_omega: f64,
+    /// Factor of its K in a variant of the model; 1 otherwise.
+    pub young_factor: f64,
+    /// Factor of its density in a variant of the model, already in the masses; 1 otherwise.
+    pub density_factor: f64,
 }
 
 impl Body {

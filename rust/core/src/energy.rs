@@ -3,8 +3,21 @@
 use crate::lane::Lane;
 use crate::mass_block::RowForces;
 use crate::model::Model;
+use crate::nodal_sums::NodalSums;
 use crate::row::Row;
-use crate::state::State;
+
+/// One lane after a step.
+#[derive(Clone, Copy)]
+pub struct After<'a> {
+    /// v_{n-1/2}.
+    pub before: Lane<'a>,
+    /// v_{n+1/2}.
+    pub velocity: Lane<'a>,
+    /// u_n.
+    pub displacement: Lane<'a>,
+    /// u_{n+1}.
+    pub next: Lane<'a>,
+}
 
 /// Energies (J per m of depth) and the largest displacement at t_n.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -32,47 +45,35 @@ impl Energies {
     }
 }
 
-/// Energies at t_n just after the step from t_n: `before` is v_{n-1/2}, the state holds v_{n+1/2} and, in `other`, u_n.
+/// Energies at t_n of one lane just after the step from t_n, from its sums over the nodes of each body.
 ///
 /// The strain energy takes K u_n from the equation of motion, `K u = f + G' lambda - M (v+ - v-)/dt`, so that no
 /// second product with K is needed. `momentum` receives each body's `sum m v_n`.
-pub fn sample(
+pub fn sample<'s>(
     model: &Model,
     dt: f64,
-    state: &State,
-    before: &[f64],
+    sums: impl Iterator<Item = &'s NodalSums>,
+    lane: &After,
     rows: &[Row],
     forces: &RowForces,
     momentum: &mut [[f64; 2]],
 ) -> Energies {
-    let (old, new) = (Lane::new(before, state.lanes, 0), Lane::new(&state.velocity, state.lanes, 0));
-    let u = Lane::new(&state.other, state.lanes, 0);
+    let (old, new, u) = (lane.before, lane.velocity, lane.displacement);
     let mut e = Energies::default();
     let (mut kinetic, mut ahead, mut work, mut power, mut largest) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (body, p) in model.bodies.iter().zip(momentum) {
-        *p = [0.0; 2];
-        for node in body.nodes.clone() {
-            let (m, a, b, x) = (model.mass[node], old.at(node as u32), new.at(node as u32), u.at(node as u32));
-            let v = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-            kinetic += m * (v[0] * v[0] + v[1] * v[1]);
-            let jump = [b[0] - a[0], b[1] - a[1]];
-            ahead += m * (b[0] * b[0] + b[1] * b[1]);
-            work += m * (x[0] * jump[0] + x[1] * jump[1]);
-            power += m * (b[0] * jump[0] + b[1] * jump[1]);
-            *p = [p[0] + m * v[0], p[1] + m * v[1]];
-            let size = x[0] * x[0] + x[1] * x[1];
-            // Lets NaN through, unlike f64::max.
-            largest = if size <= largest { largest } else { size };
-        }
+    let mut loads = [0.0; 3];
+    for ((body, p), sums) in model.bodies.iter().zip(momentum).zip(sums) {
+        let r = body.density_factor;
+        kinetic += r * sums.kinetic;
+        ahead += r * sums.ahead;
+        work += r * sums.work;
+        power += r * sums.power;
+        *p = sums.momentum.map(|mv| r * mv);
+        // Lets NaN through, unlike f64::max.
+        largest = if sums.largest <= largest { largest } else { sums.largest };
+        loads = [0, 1, 2].map(|k| loads[k] + sums.loads[k]);
     }
-    let (mut loads, mut free_loads, mut pushed) = (0.0, 0.0, 0.0);
-    for (node, f) in model.load.iter().flatten().enumerate() {
-        let (x, free) = (u.at(node as u32), model.free(node as u32, u.at(node as u32)));
-        loads += f[0] * x[0] + f[1] * x[1];
-        free_loads += f[0] * free[0] + f[1] * free[1];
-        let v = new.at(node as u32);
-        pushed += f[0] * v[0] + f[1] * v[1];
-    }
+    let [loads, free_loads, mut pushed] = loads;
     let mut contact = 0.0;
     for (row, lambda) in rows.iter().zip(&forces.lambda) {
         let rate = 0.5 * (row.along(old) + row.along(new));
@@ -97,8 +98,7 @@ pub fn sample(
 }
 
 /// Energies of a run that stops between samples: v_{n+1/2} stands for v_n, and the strain energy is computed outright.
-pub fn at_the_end(model: &Model, state: &State, rows: &[Row], momentum: &mut [[f64; 2]]) -> Energies {
-    let (u, v) = (Lane::new(&state.displacement, state.lanes, 0), Lane::new(&state.velocity, state.lanes, 0));
+pub fn at_the_end(model: &Model, u: Lane, v: Lane, rows: &[Row], momentum: &mut [[f64; 2]]) -> Energies {
     let mut e = Energies::default();
     let mut largest = 0.0;
     for (body, p) in model.bodies.iter().zip(momentum) {
@@ -106,7 +106,7 @@ pub fn at_the_end(model: &Model, state: &State, rows: &[Row], momentum: &mut [[f
         for node in body.nodes.clone() {
             let (m, x, v) = (model.mass[node], u.at(node as u32), v.at(node as u32));
             let load = model.load.as_ref().map_or([0.0; 2], |f| f[node]);
-            let force = model.nodal_force(node as u32, u);
+            let force = model.nodal_force(body, node as u32, u);
             e.kinetic += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
             e.strain += 0.5 * (x[0] * (load[0] - force[0]) + x[1] * (load[1] - force[1]));
             e.load_potential -= load[0] * x[0] + load[1] * x[1];

@@ -10,7 +10,7 @@ use crate::row::Row;
 pub struct Record {
     /// Keep contact histories every so many steps; 0 keeps peaks only.
     pub every: u64,
-    /// Sample energies every so many steps.
+    /// Sample energies every so many steps, besides the first and the last; 0 for those two alone.
     pub energy_every: u64,
     /// Steps at which displacement and velocity are kept.
     pub snapshots: Vec<u64>,
@@ -27,6 +27,14 @@ pub struct Peaks {
     pub impulse: f64,
     /// Largest displacement sampled (m).
     pub displacement: f64,
+}
+
+impl Peaks {
+    /// Takes in the largest displacement (m) of an instant.
+    pub fn see_displacement(&mut self, largest: f64) {
+        // Lets NaN through, unlike f64::max.
+        self.displacement = if largest <= self.displacement { self.displacement } else { largest };
+    }
 }
 
 /// Displacement and velocity at one instant.
@@ -76,7 +84,7 @@ impl History {
         // A run of unknown length, ended by hand, must not ask for all the memory it might come to need.
         let steps = steps.min(MOST_RESERVED);
         let kept = steps.checked_div(record.every).map_or(0, |n| n as usize + 1);
-        let sampled = (steps / record.energy_every.max(1)) as usize + 2;
+        let sampled = steps.checked_div(record.energy_every).unwrap_or(0) as usize + 3;
         self.steps.reserve(kept);
         self.force.reserve(kept);
         self.force_on.reserve(kept * model.contacts.len());
@@ -129,9 +137,7 @@ impl History {
         self.energies.push(energies);
         self.damping_loss.push(damping_loss);
         self.momentum.extend_from_slice(momentum);
-        let peaks = &mut self.peaks;
-        let largest = energies.max_displacement;
-        peaks.displacement = if largest <= peaks.displacement { peaks.displacement } else { largest };
+        self.peaks.see_displacement(energies.max_displacement);
     }
 
     /// Energy at the last sample over that at the first, with the work of the body forces taken out, in units of the

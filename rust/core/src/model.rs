@@ -1,15 +1,14 @@
 //! The model: a scene lowered to arrays that never change.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 pub use crate::body::Body;
 use crate::boundary::{boundary_loops, edge_stiffness};
 use crate::constraint::linear::Linear;
-use crate::contact::surface::{Vertices, position};
+use crate::contact::surface::Vertices;
 use crate::contact::{Pair, Surface};
 use crate::critical_step::assembled::largest_omega2;
 use crate::critical_step::lanczos::Largest;
-use crate::element::signed_area;
 use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::lower;
@@ -35,8 +34,8 @@ pub struct Model {
     pub points: Vec<[f64; 2]>,
     /// Bodies.
     pub bodies: Vec<Body>,
-    /// Stiffness K (N/m) of all bodies.
-    pub stiffness: BlockCsr,
+    /// Stiffness K (N/m) of all bodies, before each body's own factor; variants share it.
+    pub stiffness: Arc<BlockCsr>,
     /// Lumped mass (kg) of each node.
     pub mass: Vec<f64>,
     /// Inverse mass (1/kg) by node and axis; 0 where a support holds it.
@@ -51,8 +50,8 @@ pub struct Model {
     pub pairs: Vec<Pair>,
     /// Rows that are always active.
     pub linear: Vec<Linear>,
-    /// Largest omega^2 of the assembled matrix, once it has been asked for.
-    assembled: OnceLock<Largest>,
+    /// Largest omega^2 of each body's assembled matrix before its own factors, once it has been asked for.
+    assembled: Arc<OnceLock<Vec<Largest>>>,
 }
 
 impl Model {
@@ -64,7 +63,7 @@ impl Model {
         let mut model = Self {
             points: Vec::new(),
             bodies: Vec::new(),
-            stiffness: BlockCsr { row_start: vec![0], ..BlockCsr::default() },
+            stiffness: Arc::default(),
             mass: Vec::new(),
             inverse_mass: Vec::new(),
             held: Vec::new(),
@@ -72,14 +71,16 @@ impl Model {
             contacts: Vec::new(),
             pairs: Vec::new(),
             linear: scene.linear,
-            assembled: OnceLock::new(),
+            assembled: Arc::default(),
         };
         if scene.bodies.is_empty() {
             return Err(Error::bound("scene", "number of bodies", 0, ">= 1", "add a body"));
         }
+        let mut stiffness = BlockCsr { row_start: vec![0], ..BlockCsr::default() };
         for body in scene.bodies {
-            model.add_body(body)?;
+            model.add_body(body, &mut stiffness)?;
         }
+        model.stiffness = Arc::new(stiffness);
         for support in &scene.supports {
             let object = format!("support of \"{}\"", support.body);
             let nodes = lower::find_body(&model.bodies, &support.body, &object)?.1.nodes.clone();
@@ -93,7 +94,7 @@ impl Model {
         Ok(model)
     }
 
-    fn add_body(&mut self, body: BodySpec) -> Result<()> {
+    fn add_body(&mut self, body: BodySpec, stiffness: &mut BlockCsr) -> Result<()> {
         let object = format!("body \"{}\"", body.name);
         if self.bodies.iter().any(|b| b.name == body.name) {
             let name = format!("\"{}\"", body.name);
@@ -112,10 +113,10 @@ impl Model {
 
         let first = self.points.len();
         let nodes = first..first + mesh.points.len();
-        let blocks = self.stiffness.block.len() as u32;
-        self.stiffness.row_start.extend(parts.stiffness.row_start[1..].iter().map(|s| s + blocks));
-        self.stiffness.column.extend(parts.stiffness.column.iter().map(|c| c + first as u32));
-        self.stiffness.block.extend(parts.stiffness.block);
+        let blocks = stiffness.block.len() as u32;
+        stiffness.row_start.extend(parts.stiffness.row_start[1..].iter().map(|s| s + blocks));
+        stiffness.column.extend(parts.stiffness.column.iter().map(|c| c + first as u32));
+        stiffness.block.extend(parts.stiffness.block);
         self.inverse_mass.extend(parts.mass.iter().map(|m| [1.0 / m; 2]));
         if body.body_force != [0.0; 2] || self.load.is_some() {
             // Row-sum lumping shares the body force out as it does the mass.
@@ -137,13 +138,23 @@ impl Model {
             loops,
             edge_stiffness,
             element_omega: parts.element_omega,
+            young_factor: 1.0,
+            density_factor: 1.0,
         });
         Ok(())
     }
 
-    /// Largest omega^2 (1/s^2) of the assembled matrix; found at the first call and kept.
+    /// Largest omega^2 (1/s^2) of the assembled matrix; found at the first call and kept for the model and its variants.
     pub fn assembled_omega2(&self) -> Largest {
-        *self.assembled.get_or_init(|| largest_omega2(self))
+        let of_bodies = self.assembled.get_or_init(|| self.bodies.iter().map(|b| largest_omega2(self, b)).collect());
+        let mut most = Largest { found: 0.0, upper: 0.0, products: 0 };
+        for (body, known) in self.bodies.iter().zip(of_bodies) {
+            let factor = body.young_factor / body.density_factor;
+            most.found = most.found.max(factor * known.found);
+            most.upper = most.upper.max(factor * known.upper);
+            most.products += known.products;
+        }
+        most
     }
 
     /// Largest element eigenfrequency of all bodies (rad/s).
@@ -162,18 +173,6 @@ impl Model {
         surface
     }
 
-    /// First element that a displacement has turned inside out, by kind, number and body.
-    pub fn inverted(&self, displacement: &[f64]) -> Option<String> {
-        let u = Lane::new(displacement, 1, 0);
-        let at = |n: u32| position(n, &self.points, u);
-        self.bodies.iter().find_map(|body| {
-            let triangle = body.triangles.iter().position(|t| signed_area(&t.map(at)) <= 0.0);
-            let quad = || body.quads.iter().position(|q| signed_area(&q.map(at)) <= 0.0);
-            let found = triangle.map(|e| ("triangle", e)).or_else(|| quad().map(|e| ("quad", e)));
-            found.map(|(kind, e)| format!("{kind} {e} of \"{}\"", body.name))
-        })
-    }
-
     /// The components of a nodal vector along free degrees of freedom.
     #[inline]
     pub fn free(&self, node: u32, vector: [f64; 2]) -> [f64; 2] {
@@ -189,19 +188,26 @@ impl Model {
         if held == [0.0; 2] {
             return 0.0;
         }
-        let (load, force) =
-            (self.load.as_ref().map_or([0.0; 2], |f| f[node as usize]), self.nodal_force(node, displacement));
+        let (load, force) = (
+            self.load.as_ref().map_or([0.0; 2], |f| f[node as usize]),
+            self.nodal_force(self.body_of(node), node, displacement),
+        );
         held[0] * (load[0] - force[0]) + held[1] * (load[1] - force[1])
     }
 
-    /// Nodal force f - K u (N) of one node.
-    pub fn nodal_force(&self, node: u32, displacement: Lane) -> [f64; 2] {
-        let [mut fx, mut fy] = self.load.as_ref().map_or([0.0; 2], |load| load[node as usize]);
+    /// Nodal force f - K u (N) of one node of a body.
+    pub fn nodal_force(&self, body: &Body, node: u32, displacement: Lane) -> [f64; 2] {
+        let mut ku = [0.0; 2];
         for (column, k) in self.stiffness.row(node as usize) {
             let u = displacement.at(column as u32);
-            fx -= k[0] * u[0] + k[2] * u[1];
-            fy -= k[1] * u[0] + k[3] * u[1];
+            ku = [ku[0] + k[0] * u[0] + k[2] * u[1], ku[1] + k[1] * u[0] + k[3] * u[1]];
         }
-        [fx, fy]
+        let f = self.load.as_ref().map_or([0.0; 2], |load| load[node as usize]);
+        [f[0] - body.young_factor * ku[0], f[1] - body.young_factor * ku[1]]
+    }
+
+    /// The body a node belongs to.
+    pub fn body_of(&self, node: u32) -> &Body {
+        &self.bodies[self.bodies.partition_point(|b| b.nodes.end <= node as usize)]
     }
 }

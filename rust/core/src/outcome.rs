@@ -20,6 +20,8 @@ pub enum Kind {
     ContactMissed,
     /// The state is not finite.
     NotFinite,
+    /// It could not begin: something is out of its bounds.
+    Refused,
 }
 
 impl Kind {
@@ -32,6 +34,7 @@ impl Kind {
             Self::ElementInverted => "element inverted",
             Self::ContactMissed => "contact missed",
             Self::NotFinite => "not finite",
+            Self::Refused => "refused",
         }
     }
 }

@@ -66,6 +66,12 @@ impl Row {
         (0..self.count as usize).map(|i| (self.nodes[i], self.gradient[i]))
     }
 
+    /// One entry of the row.
+    #[inline]
+    pub fn entry(&self, number: u32) -> (u32, [f64; 2]) {
+        (self.nodes[number as usize], self.gradient[number as usize])
+    }
+
     /// `G_c x` for a nodal vector field x: the gap rate when x is the velocity.
     #[inline]
     pub fn along(&self, field: Lane) -> f64 {

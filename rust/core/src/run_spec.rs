@@ -1,27 +1,73 @@
 //! What tells one run of a model from another, and the checks before it starts.
 
-use crate::contact::overlap::{self, Overlap};
+use std::sync::Arc;
+
 use crate::critical_step::{assembled_bound, element_bound};
 use crate::error::{Error, Result};
-use crate::lane::Lane;
+use crate::history::Record;
 use crate::model::Model;
 use crate::penalty::Method;
+use crate::start::Start;
+use crate::variant::Variation;
 
-/// What tells one run of a model from another.
+/// What tells one run of a model from another; costs little to keep until the run has its turn.
 #[derive(Debug, Clone)]
 pub struct RunSpec {
     /// Penalty method.
     pub method: Method,
     /// Time step (s).
     pub dt: f64,
-    /// Accept a time step above the element bound.
+    /// Steps to take, the last of them sampled; none for as many as asked for later.
+    pub steps: Option<u64>,
+    /// Accept a time step above the limits of the mesh.
     pub allow_unstable: bool,
-    /// Initial velocity v_0 (m/s), two a node.
-    pub velocity: Vec<f64>,
-    /// Initial displacement u_0 (m), two a node.
-    pub displacement: Vec<f64>,
+    /// Initial velocity v_0 and displacement u_0.
+    pub start: Arc<Start>,
+    /// Velocity (m/s) that replaces v_0 on all nodes of a body, one entry a body.
+    pub velocity: Option<Vec<Option<[f64; 2]>>>,
+    /// Bodies stiffer, denser or elsewhere.
+    pub variation: Option<Variation>,
     /// End the run when a nodal displacement passes this (m); infinite for no limit.
     pub displacement_limit: f64,
+    /// What to record.
+    pub record: Record,
+}
+
+impl RunSpec {
+    /// Contact at every step, energies at every tenth, no limit.
+    pub fn new(method: Method, dt: f64, start: Arc<Start>) -> Self {
+        let (record, displacement_limit) =
+            (Record { every: 1, energy_every: 10, snapshots: Vec::new() }, f64::INFINITY);
+        let (steps, velocity, variation) = (None, None, None);
+        Self { method, dt, steps, allow_unstable: false, start, velocity, variation, displacement_limit, record }
+    }
+
+    /// The model the run is of: a variant where bodies vary.
+    ///
+    /// # Errors
+    /// A method, time step, velocity or variation out of bounds, bodies that overlap.
+    pub(crate) fn checked_model(&self, base: &Arc<Model>) -> Result<Arc<Model>> {
+        self.method.check("method")?;
+        check_displacement_limit(self.displacement_limit)?;
+        let model = match &self.variation {
+            Some(variation) => Arc::new(base.variant(variation)?),
+            None => base.clone(),
+        };
+        check_step(&model, self)?;
+        if let Some(bodies) = &self.velocity {
+            if bodies.len() != model.bodies.len() {
+                let bound = format!("{} (one a body)", model.bodies.len());
+                let remedy = "give one a body";
+                return Err(Error::bound("run", "length of velocity", bodies.len(), &bound, remedy));
+            }
+            if let Some(v) = bodies.iter().flatten().flatten().find(|v| !v.is_finite()) {
+                return Err(Error::bound("run", "velocity", v, "finite", "give m/s"));
+            }
+        }
+        let moved = self.variation.as_ref().is_some_and(|v| v.offset.iter().any(|x| *x != [0.0; 2]));
+        self.start.check_overlap(&model, moved)?;
+        Ok(model)
+    }
 }
 
 pub(crate) fn check_displacement_limit(limit: f64) -> Result<()> {
@@ -44,34 +90,6 @@ pub(crate) fn check_step(model: &Model, spec: &RunSpec) -> Result<()> {
     if dt > limit {
         let bound = format!("<= {limit:.6e} s (2/omega_max of the mesh)");
         return Err(Error::bound("run", "dt", format!("{dt:.6e} s"), &bound, "reduce it, or pass allow_unstable=True"));
-    }
-    Ok(())
-}
-
-pub(crate) fn check_overlap(model: &Model, displacement: Lane) -> Result<()> {
-    for pair in &model.pairs {
-        let contact = &model.contacts[pair.contact as usize];
-        let body = &model.bodies[pair.secondary_body as usize];
-        let (points, inner) = (&model.points, body.inner_point(&model.points, displacement));
-        let mut found = overlap::deepest(pair, inner, points, displacement).map(|o| (body, o));
-        if let Some(other) = pair.primary_body {
-            // The other way round: a corner of the primary in a side of the secondary.
-            let (other, surface) = (&model.bodies[other as usize], model.surface(pair.secondary_body));
-            let (nodes, inner) = (other.surface_nodes(), other.inner_point(points, displacement));
-            let theirs = overlap::deepest_in(&surface, &nodes, inner, points, displacement).map(|o| (other, o));
-            let deeper = |a: &Option<(_, Overlap)>| a.as_ref().map_or(0.0, |(_, o)| o.depth);
-            found = if deeper(&theirs) > deeper(&found) { theirs } else { found };
-        }
-        let Some((body, Overlap { node, depth })) = found else { continue };
-        if depth > contact.overlap_tolerance {
-            let [first, second] = &contact.names;
-            let place = node.map_or("the inside".into(), |n| format!("node {}", n as usize - body.nodes.start));
-            let what = format!("overlap at {place} of \"{}\"", body.name);
-            let bound = format!("<= {:.3e} m at the start", contact.overlap_tolerance);
-            let object = format!("contact \"{first}\" on \"{second}\"");
-            let remedy = "move the bodies apart or raise the contact's overlap_tolerance";
-            return Err(Error::bound(&object, &what, format!("{depth:.3e} m"), &bound, remedy));
-        }
     }
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! The state: displacement and velocity of every node, axis and lane.
 
-use crate::error::{Error, Result};
 use crate::model::Model;
+use crate::start::Start;
 
-/// Displacement u_n, velocity v_{n-1/2} and time of one or many lanes, arrays [node][axis][lane].
+/// Displacement u_n and velocity v_{n-1/2} of one or many lanes, arrays [node][axis][lane].
 #[derive(Debug, Clone)]
 pub struct State {
     /// Lanes interleaved in the arrays.
@@ -14,43 +14,68 @@ pub struct State {
     pub other: Vec<f64>,
     /// Velocity v_{n-1/2} (m/s).
     pub velocity: Vec<f64>,
-    /// Steps taken.
-    pub steps: u64,
 }
 
 impl State {
-    /// One lane at t = 0 with initial velocity v_0 and displacement u_0; `v_{-1/2} = v_0 - dt/2 M^-1 (f - K u_0)`.
-    ///
-    /// # Errors
-    /// Arrays of the wrong length, values that are not finite, motion prescribed at a support.
-    pub fn new(model: &Model, velocity: &[f64], displacement: &[f64], dt: f64) -> Result<Self> {
-        for (name, values) in [("velocity", velocity), ("displacement", displacement)] {
-            if values.len() != 2 * model.points.len() {
-                let bound = format!("{} (two a node)", 2 * model.points.len());
-                return Err(Error::bound(
-                    "initial state",
-                    &format!("length of {name}"),
-                    values.len(),
-                    &bound,
-                    "resize it",
-                ));
-            }
-            if let Some(i) = values.iter().position(|x| !x.is_finite()) {
-                let what = format!("{name} of node {}", i / 2);
-                return Err(Error::bound("initial state", &what, values[i], "finite", "mend the array"));
-            }
-        }
-        let mut velocity = velocity.to_vec();
-        let u = crate::lane::Lane::new(displacement, 1, 0);
-        for (node, w) in model.inverse_mass.iter().enumerate() {
-            let force = model.nodal_force(node as u32, u);
-            for axis in 0..2 {
-                let v = &mut velocity[2 * node + axis];
-                // A held degree of freedom has no velocity, whatever the body's initial one.
-                *v = if w[axis] == 0.0 { 0.0 } else { *v - 0.5 * dt * w[axis] * force[axis] };
+    /// Empty lanes: everything at rest.
+    pub fn new(nodes: usize, lanes: usize) -> Self {
+        let zeros = || vec![0.0; 2 * nodes * lanes];
+        Self { lanes, displacement: zeros(), other: zeros(), velocity: zeros() }
+    }
+
+    /// Puts a lane at t = 0: u_0, and `v_{-1/2} = v_0 - dt/2 M^-1 (f - K u_0)`; `velocity` replaces a body's v_0.
+    pub fn begin(&mut self, lane: usize, model: &Model, start: &Start, velocity: Option<&[Option<[f64; 2]>]>, dt: f64) {
+        for (number, body) in model.bodies.iter().enumerate() {
+            let uniform = velocity.and_then(|bodies| bodies[number]);
+            for node in body.nodes.clone() {
+                let (force, w) = (start.force(model, body, node), model.inverse_mass[node]);
+                for axis in 0..2 {
+                    let (from, to) = (2 * node + axis, (2 * node + axis) * self.lanes + lane);
+                    let v = uniform.map_or(start.velocity[from], |v| v[axis]);
+                    // A held degree of freedom has no velocity, whatever the body's initial one.
+                    self.velocity[to] = if w[axis] == 0.0 { 0.0 } else { v - 0.5 * dt * w[axis] * force[axis] };
+                    self.displacement[to] = start.displacement[from];
+                    self.other[to] = start.displacement[from];
+                }
             }
         }
-        let (displacement, other) = (displacement.to_vec(), displacement.to_vec());
-        Ok(Self { lanes: 1, displacement, other, velocity, steps: 0 })
+    }
+
+    /// Copies one lane over another.
+    pub fn copy_lane(&mut self, from: usize, to: usize) {
+        for values in [&mut self.displacement, &mut self.other, &mut self.velocity] {
+            values.chunks_exact_mut(self.lanes).for_each(|lanes| lanes[to] = lanes[from]);
+        }
+    }
+
+    /// Empties a lane, so that what diverged in it is gone.
+    pub fn clear_lane(&mut self, lane: usize) {
+        for values in [&mut self.displacement, &mut self.other, &mut self.velocity] {
+            values.chunks_exact_mut(self.lanes).for_each(|lanes| lanes[lane] = 0.0);
+        }
+    }
+
+    /// The same lanes in a state of another width: those beyond it are gone, new ones are empty.
+    pub fn resized(&self, lanes: usize) -> Self {
+        let kept = lanes.min(self.lanes);
+        let resized = |values: &[f64]| -> Vec<f64> {
+            let mut new = vec![0.0; values.len() / self.lanes * lanes];
+            for (new, old) in new.chunks_exact_mut(lanes).zip(values.chunks_exact(self.lanes)) {
+                new[..kept].copy_from_slice(&old[..kept]);
+            }
+            new
+        };
+        let (displacement, other) = (resized(&self.displacement), resized(&self.other));
+        Self { lanes, displacement, other, velocity: resized(&self.velocity) }
+    }
+
+    /// Makes the displacements that the step wrote the present ones.
+    pub fn turn(&mut self) {
+        std::mem::swap(&mut self.displacement, &mut self.other);
+    }
+
+    /// Nodal values of one lane, two a node.
+    pub fn one(&self, values: &[f64], lane: usize) -> Vec<f64> {
+        values.iter().skip(lane).step_by(self.lanes).copied().collect()
     }
 }

@@ -6,9 +6,10 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::Arc;
 
+use bipenalty::group::Group;
+use bipenalty::history::Record;
 use bipenalty::model::Model;
 use bipenalty::penalty::{Damping, Mass};
-use bipenalty::step::step;
 use common::{blocks, method, start};
 
 struct Counting;
@@ -54,25 +55,23 @@ fn a_repeated_collision_allocates_nothing() {
     ] {
         for passes in [1, 2] {
             let model = Arc::new(Model::new(blocks(true, passes)).unwrap());
-            let mut run = start(&model, method(ps, mass, damping), 0, [0.3, -2.0], 0.5);
-            let initial = run.state.clone();
-            let mut rows = 0;
-            let mut collide = |n: usize| {
+            let mut group = start(&model, method(ps, mass, damping), 0, [0.3, -2.0], 0.5);
+            group.runs[0].record = Record { every: 0, energy_every: 0, snapshots: Vec::new() };
+            let initial = group.state.clone();
+            let mut most = 0;
+            let mut collide = |group: &mut Group| {
                 allocations(|| {
-                    for _ in 0..n {
-                        step(&model, &run.settings, &mut run.state, &mut run.work).unwrap();
-                        rows = rows.max(run.work.rows.len());
+                    for _ in 0..800 {
+                        group.advance(1);
+                        most = most.max(group.lanes[0].rows.len());
                     }
                 })
             };
-            assert!(collide(800) > 0, "the first collision makes room");
-            run.state = initial;
-            let again = allocations(|| {
-                for _ in 0..800 {
-                    step(&model, &run.settings, &mut run.state, &mut run.work).unwrap();
-                }
-            });
-            assert!(rows >= 5 && run.work.search.count > 2, "{rows} rows, {} searches", run.work.search.count);
+            assert!(collide(&mut group) > 0, "the first collision makes room");
+            group.state = initial;
+            let again = collide(&mut group);
+            let searches = group.lanes[0].search.count;
+            assert!(most >= 5 && searches > 2, "{most} rows, {searches} searches");
             assert_eq!(again, 0, "{mass:?} {damping:?}, {passes} passes");
         }
     }

@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::Arc;
 
-use bipenalty::critical_step::assembled::{self, EPSILON};
+use bipenalty::critical_step::assembled::EPSILON;
 use bipenalty::critical_step::{element_bound, lanczos, rows};
 use bipenalty::model::Model;
 use bipenalty::penalty::{Damping, Mass};
@@ -34,7 +34,7 @@ fn dense(model: &Model, rows: &[Row]) -> f64 {
 fn assembled_bound_holds_and_is_sharp() {
     for quads in [true, false] {
         let model = Model::new(blocks(quads, 1)).unwrap();
-        let (exact, bound) = (dense(&model, &[]), assembled::largest_omega2(&model));
+        let (exact, bound) = (dense(&model, &[]), model.assembled_omega2());
         assert!(bound.found <= exact * (1.0 + 1e-12) && bound.found >= exact * (1.0 - EPSILON), "{bound:?} {exact}");
         assert!(bound.upper >= exact && bound.upper <= exact * (1.0 + 1.1 * EPSILON), "{bound:?} {exact}");
         assert!(bound.upper < model.element_omega().powi(2) && element_bound(&model) < 2.0 / bound.upper.sqrt());
@@ -61,16 +61,16 @@ fn active_rows_within_half_a_percent() {
             (1e3, Mass::RatioFromStep(3.0)),
         ] {
             let mut run = start(&model, method(ps, mass, Damping::Factor(1e-3)), 0, [0.3, -2.0], 0.5);
-            while run.work.rows.len() < 5 {
-                run.advance(1, false);
+            while common::rows(&run).len() < 5 {
+                run.advance(1);
             }
-            let (exact, found) = (dense(&model, &run.work.rows), rows::largest_omega2(&model, &run.work.rows));
+            let (exact, found) = (dense(&model, common::rows(&run)), rows::largest_omega2(&model, common::rows(&run)));
             assert!(
                 found.found <= exact * (1.0 + 1e-9) && found.found >= 0.996 * exact,
                 "{ps} {mass:?}: {found:?} {exact}"
             );
             assert!(found.upper >= exact);
-            let added = rows::largest_stiffening(&model, &run.work.rows) * ps;
+            let added = rows::largest_stiffening(&model, common::rows(&run)) * ps;
             assert!(exact <= dense(&model, &[]) + added + 1e-9 * exact);
         }
     }

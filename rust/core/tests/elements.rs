@@ -61,7 +61,8 @@ fn forces(quads: bool, field: impl Fn([f64; 2]) -> [f64; 2]) -> (Model, Vec<[f64
     let mesh = rectangle([0.0; 2], [2.0, 1.0], [6, 4], 0.25, quads);
     let model = Model::new(Scene { bodies: vec![body("patch", mesh, steel())], ..Scene::default() }).unwrap();
     let u: Vec<f64> = model.points.iter().flat_map(|&p| field(p)).collect();
-    let force = (0..model.points.len() as u32).map(|n| model.nodal_force(n, Lane::new(&u, 1, 0))).collect();
+    let force =
+        (0..model.points.len() as u32).map(|n| model.nodal_force(&model.bodies[0], n, Lane::new(&u, 1, 0))).collect();
     (model, force)
 }
 

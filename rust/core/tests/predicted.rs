@@ -8,39 +8,46 @@ use std::sync::Arc;
 
 use bipenalty::constraint::linear::Linear;
 use bipenalty::critical_step::{assembled_bound, rows};
+use bipenalty::group::Group;
 use bipenalty::model::Model;
 use bipenalty::outcome::Outcome;
 use bipenalty::penalty::{Damping, Mass, Method};
-use bipenalty::run::{Run, RunSpec};
+use bipenalty::run::RunSpec;
 use bipenalty::scene::Scene;
-use bipenalty::step::row_forces;
+use bipenalty::start::Start;
+use bipenalty::stiffness::Isa;
 use common::{bipenalty, blocks, body, method, rectangle, start, steel};
 
 /// A run of small random velocities; `growth` says how far displacements may go.
-fn run(model: &Arc<Model>, method: Method, dt: f64) -> Run {
+fn run(model: &Arc<Model>, method: Method, dt: f64) -> Group {
     let n = 2 * model.points.len();
     let velocity = (0..n).map(|i| 1e-3 * (1.7 * i as f64 + 0.3).sin()).collect();
-    let spec =
-        RunSpec { method, dt, allow_unstable: true, velocity, displacement: vec![0.0; n], displacement_limit: 1e3 };
-    let mut run = Run::new(model.clone(), &spec).unwrap();
-    run.advance(30_000, true);
+    let start = Arc::new(Start::new(model, velocity, vec![0.0; n]).unwrap());
+    let new = RunSpec::new(method, dt, start);
+    let spec = RunSpec { allow_unstable: true, displacement_limit: 1e3, steps: Some(30_000), ..new };
+    let mut run = Group::alone(model.clone(), Isa::detect(), &spec).unwrap();
+    run.advance(30_000);
     run
 }
 
 /// Limit of the model with its linear rows, predicted.
 fn predicted(model: &Arc<Model>, method: Method, dt: f64) -> f64 {
     let mut run = start(model, method, 0, [0.0; 2], dt * model.element_omega() / 2.0);
-    row_forces(model, &run.settings, &run.state, &mut run.work).unwrap();
-    2.0 / rows::largest_omega2(model, &run.work.rows).upper.sqrt()
+    run.advance(1);
+    2.0 / rows::largest_omega2(model, common::rows(&run)).upper.sqrt()
 }
 
 fn check_both_sides(model: &Arc<Model>, ps: f64, mass: Mass, what: &str) {
     let method = method(ps, mass, Damping::None);
     let limit = predicted(model, method, 0.5 * assembled_bound(model));
     let held = run(model, method, 0.98 * limit);
-    assert_eq!(held.outcome, Outcome::Running, "{what}, p_s = {ps}");
-    assert!(held.history.peaks.displacement < 1.0, "{what}, p_s = {ps}: {}", held.history.peaks.displacement);
-    assert!(run(model, method, 1.02 * limit).outcome != Outcome::Running, "{what}, p_s = {ps}");
+    assert_eq!(held.runs[0].outcome, Outcome::Running, "{what}, p_s = {ps}");
+    assert!(
+        held.runs[0].history.peaks.displacement < 1.0,
+        "{what}, p_s = {ps}: {}",
+        held.runs[0].history.peaks.displacement
+    );
+    assert!(run(model, method, 1.02 * limit).runs[0].outcome != Outcome::Running, "{what}, p_s = {ps}");
 }
 
 #[test]
@@ -82,12 +89,12 @@ fn a_collision_frozen_at_an_instant() {
     for (quads, passes) in [(true, 1), (true, 2), (false, 1)] {
         let model = Arc::new(Model::new(blocks(quads, passes)).unwrap());
         let mut moving = start(&model, bipenalty(1.0), 0, [0.3, -2.0], 0.5);
-        while moving.work.rows.len() < 5 {
-            moving.advance(1, false);
+        while common::rows(&moving).len() < 5 {
+            moving.advance(1);
         }
         let young = 1000.0;
         let freeze = |row: &bipenalty::row::Row| Linear { entries: row.entries().collect(), offset: 0.0, young };
-        let linear = moving.work.rows.iter().map(freeze).collect();
+        let linear = common::rows(&moving).iter().map(freeze).collect();
         let frozen = Arc::new(Model::new(Scene { linear, contacts: Vec::new(), ..blocks(quads, passes) }).unwrap());
         let omega2 = model.element_omega().powi(2);
         for (ps, mass) in [(1.0, Mass::None), (30.0, Mass::None), (1e3, Mass::Ratio(3.0 * omega2))] {

@@ -17,7 +17,7 @@ fn rows_agree_with_fresh_searches(scene: Scene, velocity: [f64; 2], steps: usize
     let mut run = start(&model, bipenalty(3.0), 0, velocity, 0.5);
     let mut most = 0;
     for n in 0..steps {
-        run.advance(1, false);
+        run.advance(1);
         let u = Lane::new(&run.state.other, 1, 0);
         let mut fresh = Search::new(&model.pairs);
         fresh.keep(&model.pairs, &model.points, u).unwrap();
@@ -28,10 +28,10 @@ fn rows_agree_with_fresh_searches(scene: Scene, velocity: [f64; 2], steps: usize
         let describe = |rows: &[bipenalty::row::Row]| -> Seen {
             rows.iter().map(|row| (row.entries().collect(), row.gap)).collect()
         };
-        assert_eq!(describe(&rows), describe(&run.work.rows), "step {n}");
+        assert_eq!(describe(&rows), describe(common::rows(&run)), "step {n}");
         most = most.max(rows.len());
     }
-    (most, run.work.search.count)
+    (most, run.lanes[0].search.count)
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn bodies_far_apart_have_no_candidates() {
     scene.bodies[0].mesh = rectangle([0.1, 9.0], [0.8, 0.5], [9, 5], 0.0, true);
     let model = Arc::new(Model::new(scene).unwrap());
     let mut run = start(&model, bipenalty(1.0), 0, [0.0, 0.0], 0.5);
-    run.advance(100, true);
-    assert_eq!(run.work.search.count, 1);
-    assert!(run.work.search.candidates.iter().all(|c| c.iter().count() == 0));
+    run.advance(100);
+    assert_eq!(run.lanes[0].search.count, 1);
+    assert!(run.lanes[0].search.candidates.iter().all(|c| c.iter().count() == 0));
 }

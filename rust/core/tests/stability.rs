@@ -8,11 +8,14 @@ mod common;
 use std::sync::Arc;
 
 use bipenalty::constraint::linear::Linear;
+use bipenalty::group::Group;
 use bipenalty::model::Model;
 use bipenalty::outcome::Outcome;
 use bipenalty::penalty::{Damping, Mass, Method};
-use bipenalty::run::{Run, RunSpec};
+use bipenalty::run::RunSpec;
 use bipenalty::scene::Scene;
+use bipenalty::start::Start;
+use bipenalty::stiffness::Isa;
 use common::{body, method, rectangle, steel};
 use nalgebra::{Cholesky, DMatrix};
 
@@ -46,13 +49,13 @@ fn exact_omega(model: &Model, alpha_s: f64, alpha_m: f64) -> f64 {
     (&inverse * k * inverse.transpose()).symmetric_eigenvalues().max().sqrt()
 }
 
-fn start(model: &Arc<Model>, method: Method, dt: f64) -> Run {
+fn start(model: &Arc<Model>, method: Method, dt: f64) -> Group {
     let n = 2 * model.points.len();
     let velocity = (0..n).map(|i| 1e-3 * (1.0 + i as f64).sin()).collect();
     let displacement = vec![0.0; n];
-    let limit = 1e3;
-    let spec = RunSpec { method, dt, allow_unstable: true, velocity, displacement, displacement_limit: limit };
-    Run::new(model.clone(), &spec).unwrap()
+    let new = RunSpec::new(method, dt, Arc::new(Start::new(model, velocity, displacement).unwrap()));
+    let spec = RunSpec { allow_unstable: true, displacement_limit: 1e3, steps: Some(20_000), ..new };
+    Group::alone(model.clone(), Isa::detect(), &spec).unwrap()
 }
 
 fn check_both_sides(ps: f64, ratio: Option<f64>, damping: Damping) {
@@ -61,8 +64,9 @@ fn check_both_sides(ps: f64, ratio: Option<f64>, damping: Damping) {
     let mass = ratio.map_or(Mass::None, Mass::Ratio);
     let omega = exact_omega(&model, alpha_s, ratio.map_or(0.0, |r| alpha_s / r));
     for (factor, stable) in [(0.99, true), (1.01, false)] {
-        let mut run = start(&model, method(ps, mass, damping), factor * 2.0 / omega);
-        run.advance(20_000, true);
+        let mut group = start(&model, method(ps, mass, damping), factor * 2.0 / omega);
+        group.advance(20_000);
+        let run = &group.runs[0];
         assert_eq!(run.outcome == Outcome::Running, stable, "{factor} of the limit: {:?}", run.outcome);
         if stable {
             assert!(run.history.peaks.displacement < 1.0, "{}", run.history.peaks.displacement);

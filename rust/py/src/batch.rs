@@ -2,49 +2,56 @@
 
 use std::time::Duration;
 
-use bipenalty::history::Record;
+use bipenalty::run::RunSpec;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::errors::to_python;
-use crate::method::MethodIn;
+use crate::isa::named;
 use crate::model::Model;
 use crate::observations;
-use crate::run::spec;
+use crate::run_spec::{RunIn, record, start};
 
-/// Runs that share a model and its initial state.
+/// Runs that share a model and, up to what each says, its initial state.
 #[pyclass(frozen, module = "bipenalty._core")]
 pub struct Batch {
     inner: bipenalty::batch::Batch,
+    model: std::sync::Arc<bipenalty::model::Model>,
 }
 
 #[pymethods]
 impl Batch {
-    /// One run a method and time step, each with its number of steps; `every` = 0 keeps peaks only.
+    /// The runs with their time steps and numbers of steps; `every` = 0 keeps peaks only, `lanes` = 0 leaves the width of
+    /// the groups to the batch.
     #[new]
+    #[pyo3(signature = (model, runs, velocity, displacement, *, allow_unstable=false, displacement_limit=None,
+                        every=0, energy_every=0, lanes=0, isa="auto"))]
     #[expect(clippy::too_many_arguments, reason = "the Python layer passes everything by name")]
     fn new(
         py: Python<'_>,
         model: &Model,
-        runs: Vec<(MethodIn, f64, u64)>,
-        allow_unstable: bool,
+        runs: Vec<RunIn>,
         velocity: PyReadonlyArray2<'_, f64>,
         displacement: PyReadonlyArray2<'_, f64>,
+        allow_unstable: bool,
         displacement_limit: Option<f64>,
         every: u64,
         energy_every: u64,
+        lanes: usize,
+        isa: &str,
     ) -> PyResult<Self> {
-        let mut started = Vec::with_capacity(runs.len());
-        for (method, dt, steps) in runs {
-            let spec = spec(method, dt, allow_unstable, &velocity, &displacement, displacement_limit);
-            let run = bipenalty::run::Run::new(model.inner.clone(), &spec).map_err(|e| to_python(py, &e))?;
-            started.push((run, steps));
-        }
-        for (run, _) in &mut started {
-            run.record = Record { every, energy_every: energy_every.max(1), snapshots: Vec::new() };
-        }
-        Ok(Self { inner: bipenalty::batch::Batch::new(started) })
+        let start = start(py, &model.inner, &velocity, &displacement)?;
+        let common = RunSpec {
+            allow_unstable,
+            displacement_limit: displacement_limit.unwrap_or(f64::INFINITY),
+            record: record(every, energy_every, Vec::new()),
+            ..RunSpec::new(crate::method::none(), 0.0, start)
+        };
+        let bodies = model.inner.bodies.len();
+        let specs = runs.into_iter().map(|run| run.lower(&common, bodies)).collect();
+        let isa = named(py, isa)?;
+        let model = model.inner.clone();
+        Ok(Self { inner: bipenalty::batch::Batch::new(model.clone(), isa, lanes, specs), model })
     }
 
     /// Works for about `seconds` on `threads` threads; returns the node-steps done.
@@ -66,12 +73,7 @@ impl Batch {
 
     /// Everything observed of one run, with the steps it was to take and its seconds; None if its thread died.
     fn observations<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let look = |run: &bipenalty::run::Run, steps: u64, seconds: f64| {
-            let dict = observations::all(py, run)?;
-            dict.set_item("planned_steps", steps)?;
-            dict.set_item("seconds", seconds)?;
-            Ok(dict)
-        };
+        let look = |run: &bipenalty::ended::Ended| observations::all(py, &self.model, &run.summary, &run.history);
         self.inner.look(index, look).transpose()
     }
 }

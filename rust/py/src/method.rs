@@ -40,3 +40,8 @@ impl<'py> FromPyObject<'_, 'py> for MethodIn {
         Ok(Self(Method { stiffness, kappa: object.getattr("kappa_rule")?.extract()?, mass, damping }))
     }
 }
+
+/// Stands for a method where each run brings its own.
+pub fn none() -> Method {
+    Method { stiffness: Stiffness::Factor(0.0), kappa: f64::INFINITY, mass: Mass::None, damping: Damping::None }
+}

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use bipenalty::critical_step::rows::worst_stiffening;
 use bipenalty::critical_step::{assembled_bound, element_bound};
 use bipenalty::scene::Scene;
+use bipenalty::variant::Variation;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
@@ -48,6 +49,13 @@ impl Model {
     /// Critical time step of the assembled matrix (s), from an upper bound of its largest frequency.
     fn assembled_critical_dt(&self, py: Python<'_>) -> f64 {
         py.detach(|| assembled_bound(&self.inner))
+    }
+
+    /// The same two limits (s), element bound and assembled matrix, with factors of each body's modulus and density.
+    fn scaled_critical_dts(&self, py: Python<'_>, young: Vec<f64>, density: Vec<f64>) -> PyResult<(f64, f64)> {
+        let offset = vec![[0.0; 2]; young.len()];
+        let variant = self.inner.variant(&Variation { young, density, offset }).map_err(|e| to_python(py, &e))?;
+        Ok((element_bound(&variant), py.detach(|| assembled_bound(&variant))))
     }
 
     /// Largest E G M^-1 G' (N/m^2 per kg) that contact rows on one pair of nodes can have.

@@ -68,7 +68,10 @@ pub fn largest_omega2(model: &Model, rows: &[Row]) -> Largest {
     largest(scale.len(), EPSILON, |x, out| {
         y.copy_from_slice(x);
         inverse_root(&mut y);
-        apply(model, &scale, &y, out);
+        for body in &model.bodies {
+            let of_body = 2 * body.nodes.start..2 * body.nodes.end;
+            apply(model, body, &scale[of_body.clone()], &y[of_body.clone()], &mut out[of_body]);
+        }
         let mut forces = along(&y);
         forces.iter_mut().zip(rows).for_each(|(f, row)| *f *= row.penalties.alpha_s);
         spread(&forces, out);

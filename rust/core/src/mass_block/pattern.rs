@@ -1,6 +1,5 @@
 //! Pattern of the mass block: which degrees of freedom the active rows touch and how they couple.
 
-use crate::model::Model;
 use crate::row::{MAX_NODES, Row};
 
 /// Mark of a degree of freedom outside the block.
@@ -53,11 +52,11 @@ impl Pattern {
     }
 
     /// Brings the pattern up to date; true when it has changed.
-    pub fn update(&mut self, model: &Model, rows: &[Row]) -> bool {
+    pub fn update(&mut self, inverse_mass: &[[f64; 2]], rows: &[Row]) -> bool {
         self.next_key.clear();
         for row in rows {
             for (node, _) in row.entries() {
-                let free = model.inverse_mass[node as usize];
+                let free = inverse_mass[node as usize];
                 self.next_key.extend((0..2u8).filter(|&axis| free[axis as usize] > 0.0).map(|axis| (node, axis)));
             }
             // Closes the row, so that the same degrees of freedom shared out differently make another key.
@@ -67,7 +66,7 @@ impl Pattern {
             return false;
         }
         std::mem::swap(&mut self.key, &mut self.next_key);
-        self.number(model.points.len());
+        self.number(inverse_mass.len());
         self.couple(rows);
         true
     }

@@ -1,4 +1,4 @@
-//! Primal solution of the mass block: sparse Cholesky of `M + G'PG` (the only file that knows faer).
+//! Primal solution of the mass block: `(M + G'PG) a = -G'q` by sparse Cholesky (the only file that knows faer).
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -12,10 +12,9 @@ use faer::sparse::linalg::triangular_solve::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
+use super::RowForces;
 use super::pattern::{NONE, Pattern, reserve_total};
 use crate::error::{Error, Result};
-use crate::lane::Lane;
-use crate::model::Model;
 use crate::outcome::Kind;
 use crate::row::{MAX_NODES, Row};
 
@@ -32,33 +31,36 @@ pub struct Primal {
     solution: Vec<f64>,
     memory: Option<MemBuffer>,
     room: usize,
-    analyses: usize,
 }
 
 impl Primal {
-    /// Acceleration of the touched degrees of freedom: `[M + G'PG] a = f - K u - G'(A_s g + A_d G v)`.
-    pub fn solve(&mut self, model: &Model, rows: &[Row], dt: f64, u: Lane, v: Lane) -> Result<()> {
+    /// Fills `forces.lambda = -(q + P G a)` with a what the rows add to the acceleration, from gaps and gap rates.
+    pub fn solve(&mut self, inverse_mass: &[[f64; 2]], rows: &[Row], dt: f64, forces: &mut RowForces) -> Result<()> {
         self.make_room(rows.len());
-        if self.pattern.update(model, rows) {
+        if self.pattern.update(inverse_mass, rows) {
             self.analyse();
         }
-        self.assemble(model, rows, dt, u, v);
-        self.factorise_and_solve()
+        let RowForces { lambda, before, free } = forces;
+        for ((row, before), free) in rows.iter().zip(before.iter()).zip(free.iter()) {
+            let p = &row.penalties;
+            lambda.push(-(p.alpha_s * row.gap + p.alpha_d * before + p.inertia(dt) * (free - before) / dt));
+        }
+        self.assemble(inverse_mass, rows, dt, lambda);
+        self.factorise_and_solve()?;
+        for (row, lambda) in rows.iter().zip(lambda) {
+            *lambda -= row.penalties.inertia(dt) * self.along(row);
+        }
+        Ok(())
     }
 
     /// `G_c a` of a row over the solution.
     #[inline]
-    pub fn along(&self, row: &Row) -> f64 {
+    fn along(&self, row: &Row) -> f64 {
         let component = |node, axis: usize| match self.pattern.local(node, axis) {
             NONE => 0.0,
             local => self.solution[local as usize],
         };
         row.entries().map(|(node, g)| g[0] * component(node, 0) + g[1] * component(node, 1)).sum()
-    }
-
-    /// Number of symbolic factorisations so far.
-    pub fn analyses(&self) -> usize {
-        self.analyses
     }
 
     /// Room for as many rows, whatever their pattern; sets larger than any before are the only ones that allocate.
@@ -86,7 +88,6 @@ impl Primal {
     /// Symbolic factorisation: elimination tree and column starts of the factor.
     fn analyse(&mut self) {
         let n = self.pattern.size();
-        self.analyses += 1;
         self.tree.resize(n, 0);
         self.counts.resize(n, 0);
         let matrix = symbolic(&self.pattern);
@@ -106,27 +107,20 @@ impl Primal {
         self.solution.resize(n, 0.0);
     }
 
-    fn assemble(&mut self, model: &Model, rows: &[Row], dt: f64, u: Lane, v: Lane) {
+    fn assemble(&mut self, inverse_mass: &[[f64; 2]], rows: &[Row], dt: f64, push: &[f64]) {
         self.values.fill(0.0);
-        let mut force = ([0.0; 2], NONE);
-        for (local, &(node, axis)) in self.pattern.dofs.iter().enumerate() {
-            // The two axes of a node follow each other: its nodal force is computed once.
-            if force.1 != node {
-                force = (model.nodal_force(node, u), node);
-            }
-            self.solution[local] = force.0[axis as usize];
-            self.values[self.pattern.diagonal[local] as usize] = 1.0 / model.inverse_mass[node as usize][axis as usize];
+        self.solution.fill(0.0);
+        for (&(node, axis), &diagonal) in self.pattern.dofs.iter().zip(&self.pattern.diagonal) {
+            self.values[diagonal as usize] = 1.0 / inverse_mass[node as usize][axis as usize];
         }
         let mut scatter = self.pattern.scatter.as_slice();
-        for row in rows {
-            let p = &row.penalties;
-            scatter = self.pattern.add(row, p.inertia(dt), scatter, &mut self.values);
-            let push = p.alpha_s * row.gap + p.alpha_d * row.along(v);
+        for (row, push) in rows.iter().zip(push) {
+            scatter = self.pattern.add(row, row.penalties.inertia(dt), scatter, &mut self.values);
             for (node, g) in row.entries() {
                 for (axis, g) in g.into_iter().enumerate() {
                     let local = self.pattern.local(node, axis);
                     if local != NONE {
-                        self.solution[local as usize] -= g * push;
+                        self.solution[local as usize] += g * push;
                     }
                 }
             }

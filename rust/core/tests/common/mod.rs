@@ -3,13 +3,16 @@
 
 use std::sync::Arc;
 
-use bipenalty::history::History;
+use bipenalty::group::Group;
 use bipenalty::material::{Material, Plane};
 use bipenalty::mesh::Mesh;
 use bipenalty::model::Model;
 use bipenalty::penalty::{Damping, Mass, Method, Stiffness};
-use bipenalty::run::{Run, RunSpec};
+use bipenalty::row::Row;
+use bipenalty::run::RunSpec;
 use bipenalty::scene::{BodySpec, ContactSpec, Obstacle, Scene};
+use bipenalty::start::Start;
+use bipenalty::stiffness::Isa;
 
 /// Rectangle of nx by ny cells from `origin`, inner nodes displaced by `shake` of a cell, quads or triangles.
 pub fn rectangle(origin: [f64; 2], size: [f64; 2], cells: [usize; 2], shake: f64, quads: bool) -> Mesh {
@@ -73,23 +76,24 @@ pub fn bipenalty(ps: f64) -> Method {
     method(ps, Mass::RatioFromStep(0.9), Damping::None)
 }
 
-/// A run whose body `moving` starts with a velocity, at `safety` times the element bound.
-pub fn start(model: &Arc<Model>, method: Method, moving: usize, velocity: [f64; 2], safety: f64) -> Run {
+/// A start with one body moving.
+pub fn moving(model: &Model, body: usize, velocity: [f64; 2]) -> Arc<Start> {
     let mut v = vec![0.0; 2 * model.points.len()];
-    for node in model.bodies[moving].nodes.clone() {
+    for node in model.bodies[body].nodes.clone() {
         v[2 * node..2 * node + 2].copy_from_slice(&velocity);
     }
-    let spec = RunSpec {
-        method,
-        dt: safety * bipenalty::critical_step::element_bound(model),
-        allow_unstable: false,
-        displacement: vec![0.0; v.len()],
-        velocity: v,
-        displacement_limit: f64::INFINITY,
-    };
-    Run::new(model.clone(), &spec).unwrap()
+    let displacement = vec![0.0; v.len()];
+    Arc::new(Start::new(model, v, displacement).unwrap())
 }
 
-pub fn forget(run: &mut Run) {
-    run.history = History::default();
+/// A run whose body `body` starts with a velocity, at `safety` times the element bound.
+pub fn start(model: &Arc<Model>, method: Method, body: usize, velocity: [f64; 2], safety: f64) -> Group {
+    let dt = safety * bipenalty::critical_step::element_bound(model);
+    let spec = RunSpec::new(method, dt, moving(model, body, velocity));
+    Group::alone(model.clone(), Isa::detect(), &spec).unwrap()
+}
+
+/// Rows of the run's last step.
+pub fn rows(group: &Group) -> &[Row] {
+    &group.lanes[0].rows
 }
