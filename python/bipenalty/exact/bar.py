@@ -36,7 +36,7 @@ class Bar:
 
         w(s, t) = 1/Z sum_{k >= 0} J(t - s/c - kT) + J(t + s/c - (k + 1) T),   J = int F dt,  Z = rho c A,  T = 2L/c,
 
-    d'Alembert's waves that run out from the push and come back (Graff, Wave Motion in Elastic Solids, 1975, 2.2-2.4).
+    d'Alembert's waves that run out from the push and come back (Graff, Wave Motion in Elastic Solids, 1975, chapter 2).
 
     Example
     -------
