@@ -12,7 +12,7 @@ A `Scene` says what there is, a `Model` advances it, a `Result` holds what was s
 'finished'
 """
 
-from bipenalty import io, mesh, plot
+from bipenalty import exact, io, mesh, plot
 from bipenalty.body import Body
 from bipenalty.constraints import Support
 from bipenalty.contact import Contact
@@ -51,6 +51,7 @@ __all__ = [
     "Scene",
     "Stiffness",
     "Support",
+    "exact",
     "io",
     "mesh",
     "restitution",
