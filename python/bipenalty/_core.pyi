@@ -14,10 +14,12 @@ __all__ = [
     "check_mesh",
     "check_method",
     "instruction_set",
+    "instruction_sets",
 ]
 __version__: str
 instruction_set: str
 
+def instruction_sets() -> list[str]: ...
 def check_mesh(
     points_: NDArray[np.float64], triangles: NDArray[np.int64], quads: NDArray[np.int64], /
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], bool, list[NDArray[np.int64]]]: ...

@@ -92,6 +92,7 @@ pub fn advance_nodes(model: &Model, settings: &Settings, state: &mut State) {
         displacement: state.displacement.as_chunks().0,
         dt: [settings.dt],
         elastic_dt: [settings.dt],
+        load_dt: [settings.dt],
     };
     let (velocity, next) = (state.velocity.as_chunks_mut().0, state.other.as_chunks_mut().0);
     advance(settings.isa, &pass, 0..model.points.len(), velocity, next);

@@ -21,7 +21,7 @@ fn pass<const L: usize>(model: &Model, isa: Isa) -> Vec<(Vec<f64>, Vec<f64>)> {
     let (u, mut v, mut next) = (interleave(0.7), interleave(1.3), vec![[0.0; L]; n]);
     let dt: [f64; L] = std::array::from_fn(|lane| 1e-4 * (1.0 + lane as f64));
     let (stiffness, inverse_mass, load) = (&model.stiffness, &model.inverse_mass, model.load.as_deref());
-    let pass = Pass { stiffness, inverse_mass, load, displacement: &u, dt, elastic_dt: dt };
+    let pass = Pass { stiffness, inverse_mass, load, displacement: &u, dt, elastic_dt: dt, load_dt: dt };
     advance(isa, &pass, 0..model.points.len(), &mut v, &mut next);
     (0..L).map(|lane| (v.iter().map(|x| x[lane]).collect(), next.iter().map(|x| x[lane]).collect())).collect()
 }
@@ -63,5 +63,16 @@ fn one_pass_matches_the_dense_product() {
         let expected = v + 1e-4 * force[i] / model.mass[i / 2];
         assert!((velocity[i] - expected).abs() < 1e-9 * expected.abs().max(1.0));
         assert!((next[i] - (u[i] + 1e-4 * expected)).abs() < 1e-12 * next[i].abs().max(1.0));
+    }
+}
+
+#[test]
+fn instruction_sets_are_asked_for_by_name() {
+    assert_eq!(Isa::named("auto").unwrap(), Isa::detect());
+    assert!(Isa::available().all(|isa| Isa::named(isa.name()).unwrap() == isa));
+    assert!(Isa::available().any(|isa| isa == Isa::Baseline));
+    let message = Isa::named("avx3").unwrap_err().to_string();
+    for part in ["kernel", "\"avx3\"", "\"baseline\"", "\"auto\""] {
+        assert!(message.contains(part), "{message}");
     }
 }

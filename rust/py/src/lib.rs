@@ -26,11 +26,19 @@ mod _core {
     #[pymodule_export]
     use super::run::Run;
 
+    use bipenalty::stiffness::Isa;
+
     use super::*;
+
+    /// Instruction sets that this machine has, narrowest first, by the names they are asked for.
+    #[pyfunction]
+    fn instruction_sets() -> Vec<&'static str> {
+        Isa::available().map(Isa::name).collect()
+    }
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-        module.add("instruction_set", bipenalty::stiffness::Isa::detect().name())
+        module.add("instruction_set", Isa::detect().name())
     }
 }

@@ -1,7 +1,7 @@
 //! THE kernel: one pass over K advances every lane of a range of nodes.
 
 use super::BlockCsr;
-use super::simd::{Isa, Madd, dispatch};
+use super::simd::{Isa, Loop, Madd, dispatch};
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
 pub struct Pass<'a, const L: usize> {
@@ -17,6 +17,8 @@ pub struct Pass<'a, const L: usize> {
     pub dt: [f64; L],
     /// dt of each lane times its stiffness over mass scale: what multiplies M^-1 K u.
     pub elastic_dt: [f64; L],
+    /// dt of each lane over its mass scale: what multiplies M^-1 f.
+    pub load_dt: [f64; L],
 }
 
 /// `v += dt M^-1 (f - K u)`, `next = u + dt v` for the nodes of `range`; `velocity` and `next` cover the range only.
@@ -32,17 +34,19 @@ pub fn advance<const L: usize>(
     dispatch(isa, Advance { pass, range, velocity, next });
 }
 
-pub(super) struct Advance<'a, const L: usize> {
+struct Advance<'a, const L: usize> {
     pass: &'a Pass<'a, L>,
     range: std::ops::Range<usize>,
     velocity: &'a mut [[f64; L]],
     next: &'a mut [[f64; L]],
 }
 
-impl<const L: usize> Advance<'_, L> {
-    /// The loop itself, compiled once for each instruction set, and without loads where the scene has none.
+impl<const L: usize> Loop for Advance<'_, L> {
+    type Output = ();
+
+    /// The loop itself, without loads where the scene has none.
     #[inline(always)]
-    pub(super) fn run<M: Madd>(self) {
+    fn run<M: Madd>(self) {
         match self.pass.load {
             None => self.sweep::<M>(|_, v, _| v),
             Some(load) => self.sweep::<M>(|node, v, dt_w| {
@@ -53,11 +57,13 @@ impl<const L: usize> Advance<'_, L> {
             }),
         }
     }
+}
 
+impl<const L: usize> Advance<'_, L> {
     /// `loaded` adds dt M^-1 f to a node's velocity.
     #[inline(always)]
     fn sweep<M: Madd>(self, loaded: impl Fn(usize, [[f64; L]; 2], [[f64; L]; 2]) -> [[f64; L]; 2]) {
-        let Pass { stiffness, dt, elastic_dt, .. } = *self.pass;
+        let Pass { stiffness, dt, elastic_dt, load_dt, .. } = *self.pass;
         let (nodes, u) = (self.range.clone(), self.pass.displacement.as_chunks::<2>().0);
         let starts = stiffness.row_start[nodes.start..=nodes.end].array_windows::<2>();
         let own = u[nodes.clone()].iter().zip(&self.pass.inverse_mass[nodes.clone()]);
@@ -71,7 +77,7 @@ impl<const L: usize> Advance<'_, L> {
                     new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
                 }
             }
-            new = loaded(node, new, w.map(|w| dt.map(|dt| dt * w)));
+            new = loaded(node, new, w.map(|w| load_dt.map(|dt| dt * w)));
             for axis in 0..2 {
                 for lane in 0..L {
                     next[axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);

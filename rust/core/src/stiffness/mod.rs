@@ -2,7 +2,7 @@
 
 pub mod assembly;
 pub mod kernel;
-mod simd;
+pub(crate) mod simd;
 
 pub use simd::Isa;
 

@@ -1,8 +1,8 @@
 //! Instruction sets: the same loop compiled for each, chosen once at run time.
 
-use super::kernel::Advance;
+use crate::error::{Error, Result};
 
-/// Instruction set the kernel runs with.
+/// Instruction set that the loops over nodes run with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Isa {
     /// What every machine of the target has; products and sums rounded one by one.
@@ -16,35 +16,61 @@ pub enum Isa {
 impl Isa {
     /// The widest set this machine has.
     pub fn detect() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma") {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
+        Self::available().last().unwrap_or(Self::Baseline)
     }
 
-    /// Name for reports.
+    /// The sets this machine has, narrowest first.
+    pub fn available() -> impl Iterator<Item = Self> {
+        [Self::Baseline, Self::Avx2, Self::Avx512].into_iter().filter(|isa| isa.is_here())
+    }
+
+    /// The set of a name, or the widest this machine has for "auto".
+    ///
+    /// # Errors
+    /// A name that is none of these, or a set this machine lacks.
+    pub fn named(name: &str) -> Result<Self> {
+        if name == "auto" {
+            return Ok(Self::detect());
+        }
+        Self::available().find(|isa| isa.name() == name).ok_or_else(|| {
+            let here: Vec<String> = Self::available().map(|isa| format!("\"{}\"", isa.name())).collect();
+            let bound = format!("\"auto\" or one that this machine has ({})", here.join(", "));
+            Error::bound("kernel", "instruction set", format!("\"{name}\""), &bound, "leave it at \"auto\"")
+        })
+    }
+
+    /// Name by which it is asked for and reported.
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
-            Self::Avx2 => "avx2+fma",
-            Self::Avx512 => "avx512f+fma",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// True when this machine has it.
+    fn is_here(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => Self::Avx2.is_here() && is_x86_feature_detected!("avx512f"),
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
         }
     }
 }
 
 /// `a b + c`, fused where the instruction set has it: without hardware support fusing is a slow library call.
-pub(super) trait Madd {
+pub(crate) trait Madd {
     fn madd(a: f64, b: f64, c: f64) -> f64;
 }
 
-pub(super) struct Fused;
-pub(super) struct Separate;
+/// Machine with fused multiply-add.
+pub(crate) struct Fused;
+/// Machine without.
+pub(crate) struct Separate;
 
 impl Madd for Fused {
     #[inline(always)]
@@ -60,30 +86,32 @@ impl Madd for Separate {
     }
 }
 
-/// Runs the loop with the instruction set asked for, or the widest the machine has if it lacks that one.
-pub(super) fn dispatch<const L: usize>(isa: Isa, advance: Advance<L>) {
+/// A loop to be compiled for each instruction set; `run` and what it calls must be `#[inline(always)]`.
+pub(crate) trait Loop {
+    type Output;
+    fn run<M: Madd>(self) -> Self::Output;
+}
+
+/// Runs the loop with the instruction set asked for, or with the baseline where the machine lacks it.
+pub(crate) fn dispatch<T: Loop>(isa: Isa, work: T) -> T::Output {
     #[cfg(target_arch = "x86_64")]
     match isa {
         // SAFETY: both branches run only when the machine has just been asked for the features they need.
-        Isa::Avx512 if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma") => {
-            return unsafe { with_avx512(advance) };
-        }
-        Isa::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
-            return unsafe { with_avx2(advance) };
-        }
+        Isa::Avx512 if isa.is_here() => return unsafe { with_avx512(work) },
+        Isa::Avx2 if isa.is_here() => return unsafe { with_avx2(work) },
         _ => {}
     }
-    advance.run::<Separate>();
+    work.run::<Separate>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,fma")]
-fn with_avx512<const L: usize>(advance: Advance<L>) {
-    advance.run::<Fused>();
+fn with_avx512<T: Loop>(work: T) -> T::Output {
+    work.run::<Fused>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn with_avx2<const L: usize>(advance: Advance<L>) {
-    advance.run::<Fused>();
+fn with_avx2<T: Loop>(work: T) -> T::Output {
+    work.run::<Fused>()
 }
