@@ -38,6 +38,7 @@ class Model:
     @property
     def critical_dt(self) -> float: ...
     def assembled_critical_dt(self) -> float: ...
+    def scaled_critical_dts(self, young: list[float], density: list[float]) -> tuple[float, float]: ...
     def worst_stiffening(self) -> float: ...
     @property
     def points(self) -> NDArray[np.float64]: ...
@@ -56,6 +57,8 @@ class Run:
         allow_unstable: bool,
         velocity: NDArray[np.float64],
         displacement: NDArray[np.float64],
+        isa: str,
+        threads: int | None,
     ) -> Run: ...
     def configure(
         self, every: int, energy_every: int, snapshots: list[int], displacement_limit: float, steps: int
@@ -83,13 +86,16 @@ class Batch:
     def __new__(
         cls,
         model: Model,
-        runs: list[tuple[Any, float, int]],
-        allow_unstable: bool,
+        runs: list[Any],
         velocity: NDArray[np.float64],
         displacement: NDArray[np.float64],
-        displacement_limit: float | None,
-        every: int,
-        energy_every: int,
+        *,
+        allow_unstable: bool = False,
+        displacement_limit: float | None = None,
+        every: int = 0,
+        energy_every: int = 0,
+        lanes: int = 0,
+        isa: str = "auto",
     ) -> Batch: ...
     def advance(self, threads: int, seconds: float) -> int: ...
     @property

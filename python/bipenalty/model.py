@@ -37,6 +37,7 @@ class Model:
     allow_unstable : accept a dt above the mesh's limit.
     isa : instruction set, "auto" or one of `_core.instruction_sets()`: a run is the same to the last bit on every
         machine that has it.
+    threads : threads that share each step; all processors from 50,000 nodes on, else one, unless given.
 
     Raises
     ------
@@ -61,6 +62,7 @@ class Model:
         safety: float | None = None,
         allow_unstable: bool = False,
         isa: str = "auto",
+        threads: int | None = None,
     ) -> None:
         self.scene = scene
         self.method: Method = checks.method("model", "method", Bipenalty() if method is None else method)
@@ -68,7 +70,8 @@ class Model:
         self.critical_dt: float = self._core.critical_dt
         self.dt = time_step(self._core, dt, safety)
         start = (scene.velocity, scene.displacement)
-        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start, isa)
+        crew = None if threads is None else checks.whole("model", "threads", threads, 1)
+        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start, isa, crew)
         self._seconds = 0.0
 
     @property

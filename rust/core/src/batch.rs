@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use crate::crew::{Crew, LARGE};
 use crate::ended::{Ended, Summary};
 use crate::group::{Group, WIDTHS};
 use crate::model::Model;
@@ -66,7 +67,11 @@ impl Batch {
     fn workers(&self, threads: usize) -> Vec<Arc<Mutex<Worker>>> {
         let Ok(mut workers) = self.workers.lock() else { return Vec::new() };
         while workers.len() < threads.min(self.specs.len()) {
-            let group = Group::new(self.model.clone(), self.isa, 1);
+            let mut group = Group::new(self.model.clone(), self.isa, 1);
+            // Fewer large runs than threads: the threads left over share their steps. Without them it goes on alone.
+            let spare = threads / self.specs.len().max(1);
+            group.crew =
+                if self.model.points.len() < LARGE { Crew::default() } else { Crew::new(spare).unwrap_or_default() };
             workers.push(Arc::new(Mutex::new(Worker { group, numbers: Vec::new() })));
         }
         workers.clone()

@@ -8,6 +8,7 @@ pub mod body;
 pub mod boundary;
 pub mod constraint;
 pub mod contact;
+pub mod crew;
 pub mod critical_step;
 pub mod element;
 pub mod ended;

@@ -111,8 +111,7 @@ impl<const L: usize> Sums<L> {
             self.momentum[0][lane] += m * v[0];
             self.momentum[1][lane] += m * v[1];
             let size = x[0] * x[0] + x[1] * x[1];
-            // Lets NaN through, unlike f64::max.
-            self.largest[lane] = if size <= self.largest[lane] { self.largest[lane] } else { size };
+            self.largest[lane] = if size > self.largest[lane] { size } else { self.largest[lane] };
         }
     }
 
@@ -132,7 +131,8 @@ impl<const L: usize> Sums<L> {
             work: self.work[lane],
             power: self.power[lane],
             momentum: self.momentum.map(|p| p[lane]),
-            largest: self.largest[lane],
+            // A comparison passes over what is not a number; a sum does not.
+            largest: if (self.kinetic[lane] + self.work[lane]).is_nan() { f64::NAN } else { self.largest[lane] },
             loads: self.loads.map(|f| f[lane]),
         }
     }

@@ -57,14 +57,7 @@ impl State {
 
     /// The same lanes in a state of another width: those beyond it are gone, new ones are empty.
     pub fn resized(&self, lanes: usize) -> Self {
-        let kept = lanes.min(self.lanes);
-        let resized = |values: &[f64]| -> Vec<f64> {
-            let mut new = vec![0.0; values.len() / self.lanes * lanes];
-            for (new, old) in new.chunks_exact_mut(lanes).zip(values.chunks_exact(self.lanes)) {
-                new[..kept].copy_from_slice(&old[..kept]);
-            }
-            new
-        };
+        let resized = |values: &[f64]| resized(values, self.lanes, lanes);
         let (displacement, other) = (resized(&self.displacement), resized(&self.other));
         Self { lanes, displacement, other, velocity: resized(&self.velocity) }
     }
@@ -78,4 +71,13 @@ impl State {
     pub fn one(&self, values: &[f64], lane: usize) -> Vec<f64> {
         values.iter().skip(lane).step_by(self.lanes).copied().collect()
     }
+}
+
+/// Values [..][lane] of `from` lanes as those of `to` lanes: the first ones kept, new ones zero.
+pub(crate) fn resized(values: &[f64], from: usize, to: usize) -> Vec<f64> {
+    let (kept, mut new) = (from.min(to), vec![0.0; values.len() / from * to]);
+    for (new, old) in new.chunks_exact_mut(to).zip(values.chunks_exact(from)) {
+        new[..kept].copy_from_slice(&old[..kept]);
+    }
+    new
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::contact::search::Search;
+use crate::contact::travel::Travel;
 use crate::error::{Error, Result};
 use crate::lane::{Lane, add_to};
 use crate::mass_block::{MassBlock, RowForces};
@@ -39,13 +40,22 @@ pub struct Stepping {
 /// Central differences with bipenalty rows (THEORY: section 2), each lane from u_n, v_{n-1/2} to u_{n+1}, v_{n+1/2}.
 ///
 /// A lane that cannot go on gets its `fault` and stays where it is.
-pub fn step(model: &Model, isa: Isa, pace: &mut Pace, state: &mut State, lanes: &mut [Stepping]) {
+pub fn step(
+    model: &Model,
+    isa: Isa,
+    threads: usize,
+    pace: &mut Pace,
+    travel: &mut Travel,
+    state: &mut State,
+    lanes: &mut [Stepping],
+) {
+    travel.measure(isa, &state.displacement);
     for (number, lane) in lanes.iter_mut().enumerate() {
-        lane.fault = lane.find_rows(state, number).err();
+        lane.fault = lane.find_rows(state, travel, number).err();
         lane.measure_rates(state, number, |forces| &mut forces.before);
     }
     pace.stop_at_faults(lanes);
-    advance_nodes(model, isa, pace, state);
+    advance_nodes(model, isa, threads, pace, state);
     for (number, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| !lane.rows.is_empty()) {
         lane.measure_rates(state, number, |forces| &mut forces.free);
         match lane.find_forces() {
@@ -64,10 +74,12 @@ impl Stepping {
     }
 
     /// Rows active at u_n with their penalties.
-    fn find_rows(&mut self, state: &State, lane: usize) -> Result<()> {
+    fn find_rows(&mut self, state: &State, travel: &mut Travel, lane: usize) -> Result<()> {
         let (model, u) = (&self.model, Lane::new(&state.displacement, state.lanes, lane));
         self.rows.clear();
-        self.search.keep(&model.pairs, &model.points, u)?;
+        if self.search.keep(&model.pairs, &model.points, u, |body| travel.far(body, lane))? {
+            travel.restart(lane, &state.displacement);
+        }
         for (i, linear) in model.linear.iter().enumerate() {
             self.rows.push(linear.row((model.contacts.len() + i) as u32, u));
         }

@@ -1,5 +1,6 @@
 //! One run: step, look, go on.
 
+use bipenalty::crew::{Crew, LARGE};
 use bipenalty::critical_step::rows;
 use bipenalty::ended::Summary;
 use bipenalty::group::Group;
@@ -35,10 +36,14 @@ impl Run {
         velocity: PyReadonlyArray2<'_, f64>,
         displacement: PyReadonlyArray2<'_, f64>,
         isa: &str,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
         let start = start(py, &model.inner, &velocity, &displacement)?;
         let spec = RunSpec { allow_unstable, ..RunSpec::new(method.0, dt, start) };
-        let group = Group::alone(model.inner.clone(), named(py, isa)?, &spec).map_err(|e| to_python(py, &e))?;
+        let mut group = Group::alone(model.inner.clone(), named(py, isa)?, &spec).map_err(|e| to_python(py, &e))?;
+        let large = model.inner.points.len() >= LARGE;
+        let usual = || std::thread::available_parallelism().map_or(1, |n| if large { n.get() } else { 1 });
+        group.crew = Crew::new(threads.unwrap_or_else(usual)).map_err(|e| to_python(py, &e))?;
         Ok(Self { group })
     }
 

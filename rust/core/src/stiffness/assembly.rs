@@ -1,7 +1,7 @@
 //! Assembly: elements of one mesh into block rows, lumped mass and the element frequency bound.
 
 use super::BlockCsr;
-use crate::element::{largest_frequency, quad4, tri3};
+use crate::element::{frequency, quad4, tri3};
 use crate::material::Material;
 use crate::mesh::Mesh;
 
@@ -23,13 +23,13 @@ pub fn assemble(mesh: &Mesh, material: &Material, thickness: f64) -> Assembled {
     for nodes in &mesh.triangles {
         let points = nodes.map(|n| mesh.points[n]);
         let (k, m) = tri3::stiffness_and_mass(&points, &elasticity, thickness, material.density);
-        out.element_omega = out.element_omega.max(largest_frequency(&k, &m));
+        out.element_omega = frequency::larger(out.element_omega, &k, &m);
         out.add(nodes, |i, j| k[(i, j)], &m);
     }
     for nodes in &mesh.quads {
         let points = nodes.map(|n| mesh.points[n]);
         let (k, m) = quad4::stiffness_and_mass(&points, &elasticity, thickness, material.density);
-        out.element_omega = out.element_omega.max(largest_frequency(&k, &m));
+        out.element_omega = frequency::larger(out.element_omega, &k, &m);
         out.add(nodes, |i, j| k[(i, j)], &m);
     }
     out

@@ -4,6 +4,7 @@ use super::BlockCsr;
 use super::simd::{Isa, Loop, Madd, dispatch};
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
+#[derive(Clone, Copy)]
 pub struct Pass<'a, const L: usize> {
     /// Stiffness K (N/m).
     pub stiffness: &'a BlockCsr,
