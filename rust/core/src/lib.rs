@@ -21,6 +21,7 @@ pub mod mesh;
 pub mod model;
 pub mod outcome;
 pub mod penalty;
+pub mod probe;
 pub mod row;
 pub mod run;
 pub mod run_spec;

@@ -64,7 +64,7 @@ impl Model {
         let mut model = Self {
             points: Vec::new(),
             bodies: Vec::new(),
-            stiffness: BlockCsr { row_start: vec![0], ..BlockCsr::default() },
+            stiffness: BlockCsr::default(),
             mass: Vec::new(),
             inverse_mass: Vec::new(),
             held: Vec::new(),
@@ -112,10 +112,7 @@ impl Model {
 
         let first = self.points.len();
         let nodes = first..first + mesh.points.len();
-        let blocks = self.stiffness.block.len() as u32;
-        self.stiffness.row_start.extend(parts.stiffness.row_start[1..].iter().map(|s| s + blocks));
-        self.stiffness.column.extend(parts.stiffness.column.iter().map(|c| c + first as u32));
-        self.stiffness.block.extend(parts.stiffness.block);
+        self.stiffness.append(parts.stiffness);
         self.inverse_mass.extend(parts.mass.iter().map(|m| [1.0 / m; 2]));
         if body.body_force != [0.0; 2] || self.load.is_some() {
             // Row-sum lumping shares the body force out as it does the mass.
@@ -198,9 +195,9 @@ impl Model {
     pub fn nodal_force(&self, node: u32, displacement: Lane) -> [f64; 2] {
         let [mut fx, mut fy] = self.load.as_ref().map_or([0.0; 2], |load| load[node as usize]);
         for (column, k) in self.stiffness.row(node as usize) {
-            let u = displacement.at(column as u32);
-            fx -= k[0] * u[0] + k[2] * u[1];
-            fy -= k[1] * u[0] + k[3] * u[1];
+            let force = k.times(displacement.at(column as u32));
+            fx -= force[0];
+            fy -= force[1];
         }
         [fx, fy]
     }

@@ -1,7 +1,12 @@
 //! THE kernel: one pass over K advances every lane of a range of nodes.
 
+use std::ops::Range;
+
 use super::BlockCsr;
+use super::rows::{Force, Rows};
 use super::simd::{Isa, Loop, Madd, dispatch};
+#[cfg(target_arch = "x86_64")]
+use super::single;
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
 pub struct Pass<'a, const L: usize> {
@@ -23,20 +28,28 @@ pub struct Pass<'a, const L: usize> {
 
 /// `v += dt M^-1 (f - K u)`, `next = u + dt v` for the nodes of `range`; `velocity` and `next` cover the range only.
 ///
-/// Every lane sees the same operations in the same order whatever the number of lanes.
+/// Every lane sees the same operations in the same order whatever the number of lanes. 8 and 16 lanes are fastest in
+/// arrays that begin at a cache line ([`super::Aligned`]).
+///
+/// # Panics
+/// Arrays shorter than the matrix or the range.
 pub fn advance<const L: usize>(
     isa: Isa,
     pass: &Pass<L>,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     velocity: &mut [[f64; L]],
     next: &mut [[f64; L]],
 ) {
+    #[cfg(target_arch = "x86_64")]
+    if L == 1 && isa != Isa::Baseline && isa.is_here() {
+        return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+    }
     dispatch(isa, Advance { pass, range, velocity, next });
 }
 
 struct Advance<'a, const L: usize> {
     pass: &'a Pass<'a, L>,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     velocity: &'a mut [[f64; L]],
     next: &'a mut [[f64; L]],
 }
@@ -62,15 +75,14 @@ impl<const L: usize> Loop for Advance<'_, L> {
 impl<const L: usize> Advance<'_, L> {
     /// `loaded` adds dt M^-1 f to a node's velocity.
     #[inline(always)]
-    fn sweep<M: Madd>(self, loaded: impl Fn(usize, [[f64; L]; 2], [[f64; L]; 2]) -> [[f64; L]; 2]) {
-        let Pass { stiffness, dt, elastic_dt, load_dt, .. } = *self.pass;
-        let (nodes, u) = (self.range.clone(), self.pass.displacement.as_chunks::<2>().0);
-        let starts = stiffness.row_start[nodes.start..=nodes.end].array_windows::<2>();
-        let own = u[nodes.clone()].iter().zip(&self.pass.inverse_mass[nodes.clone()]);
-        let out = self.velocity.as_chunks_mut::<2>().0.iter_mut().zip(self.next.as_chunks_mut::<2>().0);
-        for (node, (([start, end], (x, w)), (v, next))) in nodes.zip(starts.zip(own).zip(out)) {
-            let blocks = *start as usize..*end as usize;
-            let force = product::<L, M>(&stiffness.block[blocks.clone()], &stiffness.column[blocks], u);
+    fn sweep<M: Madd>(self, loaded: impl Fn(usize, Force<L>, Force<L>) -> Force<L>) {
+        let Pass { dt, elastic_dt, load_dt, .. } = *self.pass;
+        let rows = Rows::new(self.pass.stiffness, self.pass.displacement);
+        let inverse_mass = &self.pass.inverse_mass[self.range.clone()];
+        let velocity = &mut self.velocity.as_chunks_mut::<2>().0[..self.range.len()];
+        let next = &mut self.next.as_chunks_mut::<2>().0[..self.range.len()];
+        let mut update = |at: usize, force: Force<L>| {
+            let (node, w, v) = (self.range.start + at, inverse_mass[at], &mut velocity[at]);
             let mut new = *v;
             for axis in 0..2 {
                 for lane in 0..L {
@@ -78,28 +90,26 @@ impl<const L: usize> Advance<'_, L> {
                 }
             }
             new = loaded(node, new, w.map(|w| load_dt.map(|dt| dt * w)));
+            let x = rows.at(node);
             for axis in 0..2 {
                 for lane in 0..L {
-                    next[axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);
+                    next[at][axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);
                 }
             }
             *v = new;
-        }
-    }
-}
-
-/// One block row times u: four sums, one a block entry, so that the order is the same for 1, 8 and 16 lanes.
-#[inline(always)]
-fn product<const L: usize, M: Madd>(blocks: &[[f64; 4]], columns: &[u32], u: &[[[f64; L]; 2]]) -> [[f64; L]; 2] {
-    let mut sum = [[0.0; L]; 4];
-    for (k, &column) in blocks.iter().zip(columns) {
-        let [ux, uy] = u[column as usize];
-        let factor = [ux, ux, uy, uy];
-        for entry in 0..4 {
-            for lane in 0..L {
-                sum[entry][lane] = M::madd(k[entry], factor[entry][lane], sum[entry][lane]);
+        };
+        let mut at = 0;
+        while at < self.range.len() {
+            let node = self.range.start + at;
+            if M::PAIRS && L > 1 && at + 1 < self.range.len() && rows.paired(node) {
+                let [a, b] = rows.two::<M>(node);
+                update(at, a);
+                update(at + 1, b);
+                at += 2;
+            } else {
+                update(at, rows.one::<M>(node));
+                at += 1;
             }
         }
     }
-    std::array::from_fn(|axis| std::array::from_fn(|lane| sum[axis][lane] + sum[axis + 2][lane]))
 }
