@@ -15,11 +15,17 @@ __all__ = [
     "check_method",
     "instruction_set",
     "instruction_sets",
+    "probe_bandwidth",
+    "probe_fma_rate",
+    "probe_kernel",
 ]
 __version__: str
 instruction_set: str
 
 def instruction_sets() -> list[str]: ...
+def probe_fma_rate(isa: str = "auto") -> float: ...
+def probe_bandwidth(bytes: int) -> tuple[float, float]: ...
+def probe_kernel(model: Model, lanes: int, isa: str = "auto", steps: int = 100, first: int = 0) -> float: ...
 def check_mesh(
     points_: NDArray[np.float64], triangles: NDArray[np.int64], quads: NDArray[np.int64], /
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], bool, list[NDArray[np.int64]]]: ...

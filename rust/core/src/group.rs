@@ -14,7 +14,7 @@ use crate::run::{Due, Run, RunSpec, Seen};
 use crate::shape;
 use crate::state::State;
 use crate::step::{Stepping, step};
-use crate::stiffness::Isa;
+use crate::stiffness::{Aligned, Isa};
 
 /// Widths that a group can have.
 pub const WIDTHS: [usize; 5] = [1, 2, 4, 8, MOST];
@@ -38,7 +38,7 @@ pub struct Group {
     pub runs: Vec<Run>,
     pace: Pace,
     travel: Travel,
-    before: Vec<f64>,
+    before: Aligned,
     sums: Vec<NodalSums>,
 }
 
@@ -57,7 +57,7 @@ impl Group {
             runs,
             pace,
             travel,
-            before: Vec::new(),
+            before: Aligned::zeros(0),
             sums: Vec::new(),
         }
     }
@@ -142,7 +142,10 @@ impl Group {
         let all = self.runs.iter().map(Run::due).fold(Due::default(), Due::or);
         let look = all.look || all.sample;
         if look || all.snapshot {
-            self.before.clone_from(&self.state.velocity);
+            if self.before.len() != self.state.velocity.len() {
+                self.before = Aligned::zeros(self.state.velocity.len());
+            }
+            self.before.copy_from_slice(&self.state.velocity);
         }
         step(
             &self.model,

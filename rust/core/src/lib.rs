@@ -26,6 +26,7 @@ pub mod nodal_sums;
 pub mod outcome;
 mod pace;
 pub mod penalty;
+pub mod probe;
 pub mod row;
 pub mod run;
 pub mod run_spec;

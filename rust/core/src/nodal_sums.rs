@@ -101,7 +101,7 @@ impl<const L: usize> Sums<L> {
     fn add(&mut self, m: f64, before: &[[f64; L]; 2], after: &[[f64; L]; 2], u: &[[f64; L]; 2]) {
         for lane in 0..L {
             let (a, b, x) =
-                ([0, 1].map(|k| before[k][lane]), [0, 1].map(|k| after[k][lane]), [0, 1].map(|k| u[k][lane]));
+                ([before[0][lane], before[1][lane]], [after[0][lane], after[1][lane]], [u[0][lane], u[1][lane]]);
             let v = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             let jump = [b[0] - a[0], b[1] - a[1]];
             self.kinetic[lane] += m * (v[0] * v[0] + v[1] * v[1]);

@@ -2,6 +2,7 @@
 
 use crate::model::Model;
 use crate::start::Start;
+use crate::stiffness::Aligned;
 
 /// Displacement u_n and velocity v_{n-1/2} of one or many lanes, arrays [node][axis][lane].
 #[derive(Debug, Clone)]
@@ -9,17 +10,17 @@ pub struct State {
     /// Lanes interleaved in the arrays.
     pub lanes: usize,
     /// Displacement u_n (m).
-    pub displacement: Vec<f64>,
+    pub displacement: Aligned,
     /// Displacement of the step before; the step writes the next one into it.
-    pub other: Vec<f64>,
+    pub other: Aligned,
     /// Velocity v_{n-1/2} (m/s).
-    pub velocity: Vec<f64>,
+    pub velocity: Aligned,
 }
 
 impl State {
     /// Empty lanes: everything at rest.
     pub fn new(nodes: usize, lanes: usize) -> Self {
-        let zeros = || vec![0.0; 2 * nodes * lanes];
+        let zeros = || Aligned::zeros(2 * nodes * lanes);
         Self { lanes, displacement: zeros(), other: zeros(), velocity: zeros() }
     }
 
@@ -57,7 +58,11 @@ impl State {
 
     /// The same lanes in a state of another width: those beyond it are gone, new ones are empty.
     pub fn resized(&self, lanes: usize) -> Self {
-        let resized = |values: &[f64]| resized(values, self.lanes, lanes);
+        let resized = |values: &[f64]| {
+            let mut new = Aligned::zeros(values.len() / self.lanes * lanes);
+            new.copy_from_slice(&resized(values, self.lanes, lanes));
+            new
+        };
         let (displacement, other) = (resized(&self.displacement), resized(&self.other));
         Self { lanes, displacement, other, velocity: resized(&self.velocity) }
     }

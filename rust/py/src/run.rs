@@ -130,12 +130,12 @@ impl Run {
     }
 }
 
-fn view<'py>(this: Bound<'py, Run>, get: impl Fn(&Group) -> &Vec<f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+fn view<'py>(this: Bound<'py, Run>, get: impl Fn(&Group) -> &[f64]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let run = this.borrow();
     let values = get(&run.group);
     let shape = [values.len() / 2, 2];
-    let array = ArrayView2::from_shape(shape, values.as_slice())
-        .map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;
+    let array =
+        ArrayView2::from_shape(shape, values).map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;
     // SAFETY: the array keeps the run alive, and the run's buffers keep their place and length as long as it lives.
     let array = unsafe { PyArray2::borrow_from_array(&array, this.clone().into_any()) };
     array.readwrite().make_nonwriteable();

@@ -12,7 +12,7 @@ const ROUND_OFF: f64 = 1e-12;
 pub fn larger<const N: usize, const D: usize>(omega: f64, stiffness: &SMatrix<f64, D, D>, mass: &[f64; N]) -> f64 {
     let omega2 = omega * omega * (1.0 + ROUND_OFF);
     let shifted = SMatrix::from_fn(|i, j| if i == j { omega2 * mass[i / 2] } else { 0.0 } - stiffness[(i, j)]);
-    if is_positive_definite(shifted) { omega } else { largest_frequency(stiffness, mass).max(omega) }
+    if is_positive_definite::<D>(shifted) { omega } else { largest_frequency(stiffness, mass).max(omega) }
 }
 
 /// Largest eigenfrequency (rad/s) of one element: `max eig(m^-1/2 K m^-1/2)^1/2`.

@@ -43,9 +43,7 @@ impl Assembled {
             for (b, &j) in nodes.iter().enumerate() {
                 let columns = &self.stiffness.column[row.clone()];
                 let at = row.start + columns.partition_point(|&c| (c as usize) < j);
-                for (s, value) in self.stiffness.block[at].iter_mut().enumerate() {
-                    *value += k(2 * a + s % 2, 2 * b + s / 2);
-                }
+                self.stiffness.block[at].add(|row, column| k(2 * a + row, 2 * b + column));
             }
         }
     }
@@ -57,14 +55,11 @@ fn pattern(mesh: &Mesh) -> BlockCsr {
     for (_, _, nodes) in mesh.elements() {
         nodes.iter().for_each(|&n| elements_of[n].push(nodes));
     }
-    let (mut row_start, mut column) = (vec![0], Vec::new());
-    for elements in elements_of {
-        let mut neighbours: Vec<u32> = elements.into_iter().flatten().map(|&n| n as u32).collect();
-        neighbours.sort_unstable();
-        neighbours.dedup();
-        column.extend(neighbours);
-        row_start.push(column.len() as u32);
-    }
-    let block = vec![[0.0; 4]; column.len()];
-    BlockCsr { row_start, column, block }
+    let columns = |elements: Vec<&[usize]>| {
+        let mut columns: Vec<u32> = elements.into_iter().flatten().map(|&n| n as u32).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        columns
+    };
+    BlockCsr::zeros(&elements_of.into_iter().map(columns).collect::<Vec<_>>())
 }

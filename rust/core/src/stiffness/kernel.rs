@@ -1,7 +1,12 @@
 //! THE kernel: one pass over K advances every lane of a range of nodes.
 
+use std::ops::Range;
+
 use super::BlockCsr;
+use super::rows::{Force, Rows};
 use super::simd::{Isa, Loop, Madd, dispatch};
+#[cfg(target_arch = "x86_64")]
+use super::single;
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
 #[derive(Clone, Copy)]
@@ -24,20 +29,28 @@ pub struct Pass<'a, const L: usize> {
 
 /// `v += dt M^-1 (f - K u)`, `next = u + dt v` for the nodes of `range`; `velocity` and `next` cover the range only.
 ///
-/// Every lane sees the same operations in the same order whatever the number of lanes.
+/// Every lane sees the same operations in the same order whatever the number of lanes. 8 and 16 lanes are fastest in
+/// arrays that begin at a cache line ([`super::Aligned`]).
+///
+/// # Panics
+/// Arrays shorter than the matrix or the range.
 pub fn advance<const L: usize>(
     isa: Isa,
     pass: &Pass<L>,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     velocity: &mut [[f64; L]],
     next: &mut [[f64; L]],
 ) {
+    #[cfg(target_arch = "x86_64")]
+    if L == 1 && isa != Isa::Baseline && isa.is_here() {
+        return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+    }
     dispatch(isa, Advance { pass, range, velocity, next });
 }
 
 struct Advance<'a, const L: usize> {
     pass: &'a Pass<'a, L>,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     velocity: &'a mut [[f64; L]],
     next: &'a mut [[f64; L]],
 }
@@ -45,62 +58,52 @@ struct Advance<'a, const L: usize> {
 impl<const L: usize> Loop for Advance<'_, L> {
     type Output = ();
 
-    /// The loop itself, without loads where the scene has none.
     #[inline(always)]
-    fn run<M: Madd>(self) {
-        match self.pass.load {
-            None => self.sweep::<M>(|_, v, _| v),
-            Some(load) => self.sweep::<M>(|node, v, dt_w| {
-                let f = load[node];
-                std::array::from_fn(|axis| {
-                    std::array::from_fn(|lane| M::madd(dt_w[axis][lane], f[axis], v[axis][lane]))
-                })
-            }),
+    fn run<M: Madd>(mut self) {
+        let rows = Rows::new(self.pass.stiffness, self.pass.displacement);
+        let mut node = self.range.start;
+        while node < self.range.end {
+            if M::PAIRS && L > 1 && node + 1 < self.range.end && rows.paired(node) {
+                let [force, next_force] = rows.two::<M>(node);
+                self.update::<M>(node, force, rows.at(node));
+                self.update::<M>(node + 1, next_force, rows.at(node + 1));
+                node += 2;
+            } else {
+                self.update::<M>(node, rows.one::<M>(node), rows.at(node));
+                node += 1;
+            }
         }
     }
 }
 
 impl<const L: usize> Advance<'_, L> {
-    /// `loaded` adds dt M^-1 f to a node's velocity.
+    /// Velocity and displacement x of one node under the force K u.
     #[inline(always)]
-    fn sweep<M: Madd>(self, loaded: impl Fn(usize, [[f64; L]; 2], [[f64; L]; 2]) -> [[f64; L]; 2]) {
-        let Pass { stiffness, dt, elastic_dt, load_dt, .. } = *self.pass;
-        let (nodes, u) = (self.range.clone(), self.pass.displacement.as_chunks::<2>().0);
-        let starts = stiffness.row_start[nodes.start..=nodes.end].array_windows::<2>();
-        let own = u[nodes.clone()].iter().zip(&self.pass.inverse_mass[nodes.clone()]);
-        let out = self.velocity.as_chunks_mut::<2>().0.iter_mut().zip(self.next.as_chunks_mut::<2>().0);
-        for (node, (([start, end], (x, w)), (v, next))) in nodes.zip(starts.zip(own).zip(out)) {
-            let blocks = *start as usize..*end as usize;
-            let force = product::<L, M>(&stiffness.block[blocks.clone()], &stiffness.column[blocks], u);
-            let mut new = *v;
-            for axis in 0..2 {
-                for lane in 0..L {
-                    new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
-                }
-            }
-            new = loaded(node, new, w.map(|w| load_dt.map(|dt| dt * w)));
-            for axis in 0..2 {
-                for lane in 0..L {
-                    next[axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);
-                }
-            }
-            *v = new;
-        }
-    }
-}
-
-/// One block row times u: four sums, one a block entry, so that the order is the same for 1, 8 and 16 lanes.
-#[inline(always)]
-fn product<const L: usize, M: Madd>(blocks: &[[f64; 4]], columns: &[u32], u: &[[[f64; L]; 2]]) -> [[f64; L]; 2] {
-    let mut sum = [[0.0; L]; 4];
-    for (k, &column) in blocks.iter().zip(columns) {
-        let [ux, uy] = u[column as usize];
-        let factor = [ux, ux, uy, uy];
-        for entry in 0..4 {
+    fn update<M: Madd>(&mut self, node: usize, force: Force<L>, x: &[[f64; L]; 2]) {
+        // Copied, so that what is written cannot be one of them: each loop over lanes is then one instruction a register.
+        let Pass { dt, elastic_dt, load_dt, .. } = *self.pass;
+        let (w, at) = (self.pass.inverse_mass[node], node - self.range.start);
+        let v = &mut self.velocity.as_chunks_mut::<2>().0[at];
+        let (mut new, mut moved) = (*v, *x);
+        for axis in 0..2 {
             for lane in 0..L {
-                sum[entry][lane] = M::madd(k[entry], factor[entry][lane], sum[entry][lane]);
+                new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
             }
         }
+        if let Some(load) = self.pass.load {
+            let f = load[node];
+            for axis in 0..2 {
+                for lane in 0..L {
+                    new[axis][lane] = M::madd(load_dt[lane] * w[axis], f[axis], new[axis][lane]);
+                }
+            }
+        }
+        for axis in 0..2 {
+            for lane in 0..L {
+                moved[axis][lane] = M::madd(dt[lane], new[axis][lane], moved[axis][lane]);
+            }
+        }
+        *v = new;
+        self.next.as_chunks_mut::<2>().0[at] = moved;
     }
-    std::array::from_fn(|axis| std::array::from_fn(|lane| sum[axis][lane] + sum[axis + 2][lane]))
 }

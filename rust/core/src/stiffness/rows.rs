@@ -1,0 +1,136 @@
+//! Block rows times u: four sums a row, one a block entry, in the order of the blocks whatever the number of lanes.
+
+use super::simd::Madd;
+use super::{Block, BlockCsr};
+
+/// Force of one node by axis and lane.
+pub(super) type Force<const L: usize> = [[f64; L]; 2];
+
+/// K and u of a pass, known to fit each other.
+#[derive(Clone, Copy)]
+pub(super) struct Rows<'a, const L: usize> {
+    stiffness: &'a BlockCsr,
+    u: &'a [[[f64; L]; 2]],
+}
+
+impl<'a, const L: usize> Rows<'a, L> {
+    /// # Panics
+    /// Fewer nodes in u than in K.
+    #[inline(always)]
+    pub(super) fn new(stiffness: &'a BlockCsr, u: &'a [[f64; L]]) -> Self {
+        let u = u.as_chunks().0;
+        assert!(u.len() >= stiffness.nodes(), "displacement shorter than the matrix");
+        Self { stiffness, u }
+    }
+
+    /// Displacement of a node.
+    #[inline(always)]
+    pub(super) fn at(self, node: usize) -> &'a [[f64; L]; 2] {
+        &self.u[node]
+    }
+
+    /// True when a node and the next can share the displacements of their neighbours.
+    #[inline(always)]
+    pub(super) fn paired(self, node: usize) -> bool {
+        self.stiffness.paired[node]
+    }
+
+    /// Displacement of a column.
+    #[inline(always)]
+    fn column(self, column: u32) -> &'a [[f64; L]; 2] {
+        // SAFETY: every column is a node of the matrix, and `new` has found at least as many nodes in u.
+        unsafe { self.u.get_unchecked(column as usize) }
+    }
+
+    /// Blocks and columns of one row.
+    #[inline(always)]
+    fn row(self, node: usize) -> (&'a [Block], &'a [u32]) {
+        let row = self.stiffness.row_start[node] as usize..self.stiffness.row_start[node + 1] as usize;
+        // SAFETY: row starts never fall and end with the number of blocks, which is also that of the columns.
+        unsafe { (self.stiffness.block.get_unchecked(row.clone()), self.stiffness.column.get_unchecked(row)) }
+    }
+
+    /// One row times u, as many lanes at a time as have their sums in registers.
+    #[inline(always)]
+    pub(super) fn one<M: Madd>(self, node: usize) -> Force<L> {
+        match 2 * M::WIDTH {
+            lanes if lanes >= L => self.lanes::<M, L>(node),
+            8 => self.lanes::<M, 8>(node),
+            _ => self.lanes::<M, 4>(node),
+        }
+    }
+
+    #[inline(always)]
+    fn lanes<M: Madd, const C: usize>(self, node: usize) -> Force<L> {
+        let (blocks, columns) = self.row(node);
+        let mut force = [[0.0; L]; 2];
+        let mut first = 0;
+        while first < L {
+            let mut sum = [[0.0; C]; 4];
+            // Inner nodes of quads have nine blocks: a known number needs no loop.
+            if let Some((blocks, columns)) = nine(blocks, columns) {
+                for b in 0..9 {
+                    accumulate::<L, C, M>(&mut sum, &blocks[b], self.column(columns[b]), first);
+                }
+            } else {
+                for (block, &column) in blocks.iter().zip(columns) {
+                    accumulate::<L, C, M>(&mut sum, block, self.column(column), first);
+                }
+            }
+            for lane in 0..C {
+                force[0][first + lane] = sum[0][lane] + sum[3][lane];
+                force[1][first + lane] = sum[1][lane] + sum[2][lane];
+            }
+            first += C;
+        }
+        force
+    }
+
+    /// The rows of a pair: each displacement they share is loaded once.
+    #[inline(always)]
+    pub(super) fn two<M: Madd>(self, node: usize) -> [Force<L>; 2] {
+        let [(ka, ca), (kb, cb)] = [self.row(node), self.row(node + 1)];
+        let mut sum = [[[0.0; L]; 4]; 2];
+        let (Some((ka, ca)), Some((kb, cb))) = (nine(ka, ca), nine(kb, cb)) else {
+            return [self.one::<M>(node), self.one::<M>(node + 1)];
+        };
+        for t in [0, 3, 6] {
+            accumulate::<L, L, M>(&mut sum[0], &ka[t], self.column(ca[t]), 0);
+            for s in [t, t + 1] {
+                accumulate::<L, L, M>(&mut sum[0], &ka[s + 1], self.column(cb[s]), 0);
+                accumulate::<L, L, M>(&mut sum[1], &kb[s], self.column(cb[s]), 0);
+            }
+            accumulate::<L, L, M>(&mut sum[1], &kb[t + 2], self.column(cb[t + 2]), 0);
+        }
+        let mut force = [[[0.0; L]; 2]; 2];
+        for row in 0..2 {
+            for lane in 0..L {
+                force[row][0][lane] = sum[row][0][lane] + sum[row][3][lane];
+                force[row][1][lane] = sum[row][1][lane] + sum[row][2][lane];
+            }
+        }
+        force
+    }
+}
+
+/// Adds one block's four products in `C` lanes from `first` on.
+#[inline(always)]
+fn accumulate<const L: usize, const C: usize, M: Madd>(
+    sum: &mut [[f64; C]; 4],
+    block: &Block,
+    u: &[[f64; L]; 2],
+    first: usize,
+) {
+    for entry in 0..4 {
+        let u = &u[entry % 2][first..first + C];
+        for lane in 0..C {
+            sum[entry][lane] = M::madd(block.0[entry], u[lane], sum[entry][lane]);
+        }
+    }
+}
+
+/// A row of nine blocks with its columns.
+#[inline(always)]
+fn nine<'a>(blocks: &'a [Block], columns: &'a [u32]) -> Option<(&'a [Block; 9], &'a [u32; 9])> {
+    Some((blocks.try_into().ok()?, columns.try_into().ok()?))
+}
