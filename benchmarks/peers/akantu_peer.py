@@ -26,7 +26,8 @@ from peers.interface import (
 
 SCRIPT = Path(__file__).with_name("akantu_script.py")
 
-#: Its contact: the nodes of the top cylinder on the segments of the bottom one, linear and without friction.
+#: Its contact: the nodes of the top cylinder on the segments of the bottom one, linear and without friction. Nothing
+#: else that was tried keeps the momentum either: sides swapped, two passes, the other detector, a rigid primary side.
 CONTACT = """
 contact_detector [
   type = explicit
