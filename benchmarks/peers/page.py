@@ -50,8 +50,8 @@ def notes(case: Case, wanted: Reference, agreement: dict[str, float], rows: Sequ
     lines = [
         f"Penalty: a contact node is pushed out with p_s E_max = {case.alpha_s:g} N/m per metre of overlap in all programs; "
         "the parameter-free method chooses its own, and where the penalty is wrong is given p_s with the critical rule.",
-        "Time loop: wall time, one thread, runs of all programs in turn; median (least to most, number of runs n), ratios round by round. The "
-        "package and the script record forces at every step, the package energies at every tenth. Of CalculiX it is the "
+        "Time loop: wall time, one thread, runs of all programs in turn; median (least to most, number of runs n), ratios round by round. "
+        "The package and the script record forces at every step, the package energies at every tenth. Of CalculiX it is the "
         "whole process, printing nothing on the way, less one of a single step.",
         "CalculiX: a slice of bricks, as its plane elements do not move in explicit dynamics; it has twice the nodes that "
         "are counted. Its force is what the top cylinder gains in momentum between prints (every second step); it prints "
