@@ -127,6 +127,17 @@ def test_table_shows_what_was_measured(load: Any) -> None:
     assert "bad (all else)" in page.concluded(rows)
 
 
+def test_page_says_when_other_programs_ran(load: Any) -> None:
+    case, page = load("interface").Case(1.0, dt=0.1, t_end=1.0), load("page")
+    wanted = load("judge").Reference(*np.ones((3, 2)))
+    busy, quiet, unknown = (
+        page.notes(case, wanted, {}, [], {"load average": load}) for load in ("1.50", "0.1", "unknown")
+    )
+    assert "load average 1.50" in busy
+    assert quiet == unknown
+    assert "Other programs" not in quiet
+
+
 @pytest.mark.parametrize(
     ("changed", "words"),
     [

@@ -9,6 +9,9 @@ from peers.interface import Case
 from peers.judge import ENERGY, FINER, FORCE, MOMENTUM, OVERFLOW, STEPS, WIDTH, Reference
 from peers.report import Row, collisions, wrongs
 
+#: Load average beyond which the machine was not the benchmark's own.
+BUSY = 0.5
+
 
 def shown(rows: Sequence[Row]) -> str:
     """What it shows: which programs were right, and how their time loops compare with the first row's."""
@@ -44,7 +47,9 @@ def listed(items: Sequence[str]) -> str:
     return ", ".join(items) if items else "none"
 
 
-def notes(case: Case, wanted: Reference, agreement: dict[str, float], rows: Sequence[Row]) -> str:
+def notes(
+    case: Case, wanted: Reference, agreement: dict[str, float], rows: Sequence[Row], about: dict[str, str]
+) -> str:
     """How it was measured, at length."""
     differ = ", ".join(f"{name} by {100 * error:.2g} %" for name, error in agreement.items())
     lines = [
@@ -70,6 +75,12 @@ def notes(case: Case, wanted: Reference, agreement: dict[str, float], rows: Sequ
     few = [f"{row.name} {len(row.seconds)}" for row in rows if 0 < len(row.seconds) < max(len(r.seconds) for r in rows)]
     if few:
         lines.append(f"Timed less often, because they take long: {listed(few)}.")
+    load = about.get("load average", "unknown")
+    if load != "unknown" and float(load) > BUSY:
+        lines.append(
+            f"Other programs ran on the machine (load average {load} before the first run): wall times are longer than on "
+            "a quiet one; the least of each, and the ratios, which are taken round by round, say more than the medians."
+        )
     return "\n".join(f"- {line}" for line in lines)
 
 
@@ -97,7 +108,7 @@ def page(
         "## A wrong penalty",
         wrongs(rows),
         "## Notes on the measurement",
-        notes(case, wanted, agreement, rows),
+        notes(case, wanted, agreement, rows, about),
         "## Machine",
         table(["", ""], [[key, value] for key, value in about.items()]),
     ]
