@@ -1,0 +1,111 @@
+"""What memory a sweep takes, stated beforehand, and what the machine has to spare."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from pathlib import Path
+
+from bipenalty import checks
+from bipenalty.scene import Scene
+
+#: Bytes of a run's peaks, flags, outcome and reason in the dataset.
+PEAKS = 400
+#: Bytes of a kept sample of the two histories in the dataset.
+SAMPLE = 16
+#: Bytes that a run at work takes a node, a step (energies) and a kept step (contact); buffers grow by doubling.
+NODE, STEP, KEPT = 256, 32, 96
+#: A task at work takes no more than this if its runs can be fewer.
+TASK = 256 << 20
+
+
+def sweep_memory(
+    scene: Scene,
+    runs: int,
+    steps: int,
+    *,
+    histories: bool | int = False,
+    chunk: int | None = None,
+    stored: bool = False,
+) -> int:
+    """Memory that a sweep takes, bytes: the arrays of the dataset and one task at work. An estimate, rather high.
+
+    Parameters
+    ----------
+    scene : what is run.
+    runs, steps : how many runs of how many steps, >= 1.
+    histories : as for `sweep`.
+    chunk : runs of a task at work at a time; as `sweep` would choose unless given.
+    stored : whether results go into a Zarr store, so that only the task counts.
+
+    Raises
+    ------
+    InputError : a value out of its bounds.
+
+    Example
+    -------
+    >>> import bipenalty as bp
+    >>> scene = bp.Scene([bp.Body("bar", bp.mesh.rectangle(1, 1, 4, 4), bp.LinearElastic(900, 0, 1))])
+    >>> bp.sweep_memory(scene, runs=10_000, steps=2_000) / 1e6
+    22.1248
+    """
+    every = stride(histories)
+    count, length = checks.whole("sweep_memory", "runs", runs, 1), checks.whole("sweep_memory", "steps", steps, 1)
+    size = default_chunk(scene.n_nodes, count, length, every) if chunk is None else checks.whole(
+        "sweep_memory", "chunk", chunk, 1)  # fmt: skip
+    working = min(size, count) * run_memory(scene.n_nodes, length, every)
+    return working + (0 if stored else count * (PEAKS + SAMPLE * samples(length, every)))
+
+
+def stride(histories: bool | int) -> int:
+    """0 for peaks only, else every how many steps histories are kept."""
+    if isinstance(histories, bool):
+        return int(histories)
+    return checks.whole("sweep", "histories", histories, 0)
+
+
+def samples(steps: int, every: int) -> int:
+    """How many samples are kept of so many steps."""
+    return -(-steps // every) if every else 0
+
+
+def run_memory(nodes: int, steps: int, every: int) -> int:
+    """Bytes of a run at work, its histories included."""
+    return PEAKS + NODE * nodes + STEP * steps + (KEPT + SAMPLE) * samples(steps, every)
+
+
+def default_chunk(nodes: int, runs: int, steps: int, every: int, *, tasks: int = 1, threads: int = 1) -> int:
+    """Runs of a task: at most 256, at least 16 a thread, in at least so many tasks, bounded by memory first."""
+    wanted = min(256, max(16 * threads, 8 * -(-runs // (8 * tasks))))
+    return max(1, min(wanted, TASK // run_memory(nodes, steps, every)))
+
+
+def available_memory() -> int:
+    """Bytes that can still be had: of the machine, of the container, of the process, whatever is least."""
+    found = [1 << 62]
+    with contextlib.suppress(OSError, StopIteration, ValueError):
+        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        found.append(1024 * int(next(line for line in lines if line.startswith("MemAvailable:")).split()[1]))
+    if len(found) == 1:
+        # No such file: what the machine has in all, which is more than can be had.
+        with contextlib.suppress(AttributeError, OSError, ValueError):
+            found.append(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    with contextlib.suppress(OSError, ValueError):
+        group = Path("/sys/fs/cgroup")
+        limit, used = (int((group / f"memory.{name}").read_text()) for name in ("max", "current"))
+        found.append(max(0, limit - used))
+    with contextlib.suppress(ImportError, OSError, ValueError):
+        import resource
+
+        limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+        if limit != resource.RLIM_INFINITY:
+            found.append(limit)
+    return min(found)
+
+
+def check_memory(needed: int) -> None:
+    """Raise an InputError when a sweep needs more memory than there is."""
+    available = available_memory()
+    remedy = "give store= a path ending in .zarr, a larger histories=, or leave histories out to keep peaks only"
+    bound = f"at most the {available / 1e9:.3g} GB available"
+    checks.within("sweep", "memory", f"{needed / 1e9:.3g} GB", needed <= available, bound, remedy)
