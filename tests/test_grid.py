@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-import scenes
 import xarray as xr
 
 import bipenalty as bp
+import scenes
 from bipenalty import InputError
 from bipenalty.sweeps import memory
 from bipenalty.sweeps.layout import Layout, block_shape
@@ -180,6 +180,8 @@ def test_memory_is_stated_and_kept_to() -> None:
     many = [bp.sweep_memory(SCENE, runs, 1000, histories=True) for runs in (100_000, 200_000)]
     assert many[1] - many[0] == pytest.approx(100_000 * 1000 * 16, rel=0.05)
     assert bp.sweep_memory(SCENE, 10**6, 1000, histories=True, stored=True) < 1e9
+    flying = [bp.sweep_memory(SCENE, 10**6, 1000, histories=True, chunk=10, in_flight=n, stored=True) for n in (64, 128)]
+    assert flying[1] == 2 * flying[0] > 64 * 10 * 1000 * 16
 
 
 def test_more_memory_than_there_is(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-import scenes
 
 import bipenalty as bp
+import scenes
 from bipenalty.sweeps import core_batch
 
 pytestmark = pytest.mark.xfail(

@@ -44,20 +44,25 @@ def drive(scene: Scene, lowered: Lowered, plans: Plans, how: How) -> xr.Dataset:
         attrs["fingerprint"] = fingerprint(scene, *spec, attrs)
         # Blocks are what they were when the store was made.
         chunk = attrs["chunk"] = kind.chunk_of(how.store) or chunk
-    attrs["memory"] = memory.sweep_memory(
-        scene, math.prod(shape), max(1, longest), histories=how.every, chunk=chunk, stored=kind is ZarrStore
-    )
-    memory.check_memory(attrs["memory"])
+    room: dict[str, Any] = {
+        "histories": how.every,
+        "chunk": chunk,
+        "in_flight": how.in_flight or 0,
+        "stored": kind is ZarrStore,
+    }
+    needed = memory.sweep_memory(scene, math.prod(shape), max(1, longest), **room)
+    memory.check_memory(needed)
     dims, time_dim = tuple(axis.dim for axis in plans.axes), "step" if plans.step_axes else "time"
     layout = Layout(dims, shape, block_shape(shape, chunk), samples, time_dim)
     store: Store = kind(layout, coordinates(plans, layout, dts, how.every), attrs, how.store)
     options = Options(
-        how.allow_unstable, how.displacement_limit, how.every, samples, how.threads, call=uuid.uuid4().hex
+        how.allow_unstable, how.displacement_limit, how.every, samples, how.threads, package_version(), uuid.uuid4().hex
     )
     with store.opened():
         lost, interrupted = fill(store, plans, scene, lowered, options, how, mean)
         data = store.finish(lost, "interrupted")
-    data.attrs["interrupted"] = int(interrupted)
+    # Of this call, not of its result: they are not stored.
+    data.attrs |= {"memory": needed, "interrupted": int(interrupted)}
     return data
 
 

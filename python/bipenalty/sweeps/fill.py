@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Generator, Sequence
 from contextlib import closing
 from typing import Any
@@ -34,7 +35,7 @@ def fill(
     """
     layout, done, lost = store.layout, store.done(), dict[int, str]()
     todo = [task for task in range(layout.n_tasks) if task not in done]
-    runs = sum(len(layout.indices(task)) for task in todo)
+    runs = sum(math.prod(layout.region_shape(task)) for task in todo)
     with progress.bar(mean * runs * scene.n_nodes, "node-step", "sweep", how.show_progress) as bar:
         seen = _Progress(bar, runs, mean, scene.n_nodes)
         try:

@@ -79,7 +79,8 @@ def grid(
         allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress
     )
     ready = lowered(scene)
-    named = axes if isinstance(axes, Mapping) else {}
+    listed: Any = axes  # whatever the caller has put there
+    named = listed if isinstance(listed, Mapping) else {}
     given = {"method": method is not None, "t_end": t_end is not None, "dt": dt != "element"}
     twice = [name for name, there in given.items() if there and name in named]
     checks.within("grid", "given as axis and as argument", twice, not twice, "one of the two", "leave one out")

@@ -9,6 +9,7 @@ from typing import Any
 
 from bipenalty import checks
 from bipenalty.sweeps import memory
+from bipenalty.sweeps.executors import in_flight_of
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,6 @@ def how(
     if found.store is not None:
         known = found.store.suffix in (".zarr", ".nc")
         checks.within("sweep", "store", f'"{store}"', known, "a path ending in .zarr or .nc", "name it so")
-    if executor is not None and found.in_flight is None:
-        from bipenalty.sweeps.executors import in_flight_of
-
-        return replace(found, in_flight=in_flight_of(executor))
-    return found
+    if executor is None:
+        return replace(found, in_flight=None)
+    return replace(found, in_flight=found.in_flight or in_flight_of(executor))

@@ -26,9 +26,13 @@ def sweep_memory(
     *,
     histories: bool | int = False,
     chunk: int | None = None,
+    in_flight: int = 0,
     stored: bool = False,
 ) -> int:
-    """Memory that a sweep takes, bytes: the arrays of the dataset and one task at work. An estimate, rather high.
+    """Memory that a sweep takes, bytes: the arrays of the dataset and one task at work, beside Python and its libraries.
+
+    On an executor it is that of the driver, which has no task at work but the results of those in flight, and what
+    this function says of one task holds for each worker.
 
     Parameters
     ----------
@@ -36,7 +40,8 @@ def sweep_memory(
     runs, steps : how many runs of how many steps, >= 1.
     histories : as for `sweep`.
     chunk : runs of a task at work at a time; as `sweep` would choose unless given.
-    stored : whether results go into a Zarr store, so that only the task counts.
+    in_flight : tasks in flight on an executor; 0 for none.
+    stored : whether results go into a Zarr store, so that they do not count.
 
     Raises
     ------
@@ -53,8 +58,10 @@ def sweep_memory(
     count, length = checks.whole("sweep_memory", "runs", runs, 1), checks.whole("sweep_memory", "steps", steps, 1)
     size = default_chunk(scene.n_nodes, count, length, every) if chunk is None else checks.whole(
         "sweep_memory", "chunk", chunk, 1)  # fmt: skip
-    working = min(size, count) * run_memory(scene.n_nodes, length, every)
-    return working + (0 if stored else count * (PEAKS + SAMPLE * samples(length, every)))
+    kept, size = PEAKS + SAMPLE * samples(length, every), min(size, count)
+    flying = checks.whole("sweep_memory", "in_flight", in_flight, 0) * size * kept
+    working = flying or size * run_memory(scene.n_nodes, length, every)
+    return working + (0 if stored else count * kept)
 
 
 def stride(histories: bool | int) -> int:

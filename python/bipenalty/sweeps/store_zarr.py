@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import shutil
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -100,6 +101,10 @@ class ZarrStore:
         group.create_group("tasks").create_array(
             "done", shape=self.layout.blocks, chunks=ones, dtype="u1", fill_value=0, compressors=None
         )
+        with warnings.catch_warnings():
+            # Not part of the format yet, but what xarray reads first and asks for where it is missing.
+            warnings.simplefilter("ignore")
+            self.zarr.consolidate_metadata(path)
 
     def _array(
         self, group: Any, name: str, dims: Any, shape: Any, chunks: Any, kind: str, fill: Any, attrs: Any
@@ -136,7 +141,7 @@ class ZarrStore:
 
     def finish(self, lost: Mapping[int, str], rest: str) -> xr.Dataset:
         """The dataset, read from the store where it is used; outcome, reason and failed are in memory."""
-        data = xr.open_zarr(self.path, chunks=None, consolidated=False)
+        data = xr.open_zarr(self.path, chunks=None)
         # Coordinates are the call's own; the rest is read where it is used.
         data = data[[v.name for v in self.variables]].reset_coords(drop=True).assign_coords(self.coordinates)
         data.attrs = dict(self.attrs)

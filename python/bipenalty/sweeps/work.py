@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from bipenalty import _core
+from bipenalty import _core, checks
 from bipenalty.errors import InputError
 from bipenalty.lower import lower
 from bipenalty.model import SLICE
+from bipenalty.result_dataset import package_version
 from bipenalty.scene import Scene
 from bipenalty.sweeps import core_batch
 from bipenalty.sweeps.layout import FLAGS, HISTORIES, SECONDS, SUMMARY, WORDS
@@ -28,14 +29,16 @@ STOPPED: set[str] = set()
 
 @dataclass(frozen=True)
 class Options:
-    """What all runs of a call share: `samples` kept of each history, every `every` steps; threads of a task."""
+    """What all runs of a call share: `samples` kept of each history, every `every` steps; threads of a task; the
+    version of the package they are to be computed with; the name of the call."""
 
     allow_unstable: bool
     displacement_limit: float | None
     every: int
     samples: int
     threads: int
-    call: str = ""
+    version: str
+    call: str
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,14 @@ def _unpacked(packed: Packed) -> Lowered:
 
 
 def work(packed: Packed, plans: Sequence[Plan], options: Options) -> Arrays:
-    """Do some runs; returns name -> array, first axis over the runs, second over the samples of a history."""
+    """Do some runs; returns name -> array, first axis over the runs, second over the samples of a history.
+
+    Raises
+    ------
+    InputError : the worker has another version of the package than the driver.
+    """
+    here, remedy = package_version(), "install the same everywhere"
+    checks.within("worker", "version of bipenalty", here, here == options.version, options.version, remedy)
     arrays, interrupted = compute(_unpacked(packed), plans, options)
     if interrupted:
         raise KeyboardInterrupt
