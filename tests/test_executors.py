@@ -263,7 +263,10 @@ def test_call_that_is_wrong_reaches_no_worker() -> None:
 def test_worker_with_another_version_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Numbers of two versions do not get into one dataset."""
     monkeypatch.setattr(work, "package_version", lambda: "0.0.1")
-    with cf.ThreadPoolExecutor(1) as executor, pytest.raises(InputError, match=r"worker: version of .* = 0.0.1, must be"):
+    with (
+        cf.ThreadPoolExecutor(1) as executor,
+        pytest.raises(InputError, match=r"worker: version of .* = 0.0.1, must be"),
+    ):
         call(None, executor=executor)
 
 

@@ -180,7 +180,9 @@ def test_memory_is_stated_and_kept_to() -> None:
     many = [bp.sweep_memory(SCENE, runs, 1000, histories=True) for runs in (100_000, 200_000)]
     assert many[1] - many[0] == pytest.approx(100_000 * 1000 * 16, rel=0.05)
     assert bp.sweep_memory(SCENE, 10**6, 1000, histories=True, stored=True) < 1e9
-    flying = [bp.sweep_memory(SCENE, 10**6, 1000, histories=True, chunk=10, in_flight=n, stored=True) for n in (64, 128)]
+    flying = [
+        bp.sweep_memory(SCENE, 10**6, 1000, histories=True, chunk=10, in_flight=n, stored=True) for n in (64, 128)
+    ]
     assert flying[1] == 2 * flying[0] > 64 * 10 * 1000 * 16
 
 

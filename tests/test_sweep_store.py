@@ -259,6 +259,7 @@ def test_ctrl_c_returns_what_has_finished(kind: str, tmp_path: Path, undisturbed
     assert ((data.outcome.values != "interrupted") == there).all()
     assert not data.failed.values[~there].any()
     assert not data.finished.values[~there].any()
+    assert not data.steps.values[~there].any()
     assert call(store).attrs["interrupted"] == 0
     assert tree(store) == tree(undisturbed(kind))
 

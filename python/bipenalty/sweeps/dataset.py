@@ -98,6 +98,9 @@ def label_rest(data: xr.Dataset, layout: Layout, lost: Mapping[int, str], rest: 
     for task, why in lost.items():
         region = layout.region(task)
         outcome[region], reason[region], failed[region] = "lost", why, True
-    outcome[outcome == PENDING] = rest
-    words = {"outcome": outcome, "reason": reason, "failed": failed}
-    return data.assign({name: data[name].copy(data=values) for name, values in words.items()})
+    pending = outcome == PENDING
+    outcome[pending] = rest
+    changed = {"outcome": outcome, "reason": reason, "failed": failed}
+    if pending.any():
+        changed["steps"] = np.where(pending, 0.0, data["steps"].values)
+    return data.assign({name: data[name].copy(data=values) for name, values in changed.items()})

@@ -8,6 +8,7 @@ from typing import Any
 
 import xarray as xr
 
+from bipenalty import checks
 from bipenalty.result_dataset import package_version
 from bipenalty.scene import Scene
 from bipenalty.sweeps import memory
@@ -40,6 +41,8 @@ def drive(scene: Scene, lowered: Lowered, plans: Plans, how: How) -> xr.Dataset:
     kind = _kind(how)
     chunk = how.chunk or _chunk(scene.n_nodes, math.prod(shape), longest, how)
     if how.store is not None:
+        names = [axis.dim for axis in plans.axes if "/" in axis.dim]
+        checks.within("sweep", "axis", names, not names, 'without "/" in a store', "rename the body")
         spec = (plans.axes, plans.method, plans.t_end, plans.dt, plans.safety, how.allow_unstable)
         attrs["fingerprint"] = fingerprint(scene, *spec, attrs)
         # Blocks are what they were when the store was made.

@@ -82,9 +82,9 @@ def run_memory(nodes: int, steps: int, every: int) -> int:
 
 
 def default_chunk(nodes: int, runs: int, steps: int, every: int, *, tasks: int = 1, threads: int = 1) -> int:
-    """Runs of a task: at most 256, at least 16 a thread, in at least so many tasks, bounded by memory first."""
+    """Runs of a task: at most 256, at least 16 a thread, in at least so many tasks, memory allowing."""
     wanted = min(256, max(16 * threads, 8 * -(-runs // (8 * tasks))))
-    return max(1, min(wanted, TASK // run_memory(nodes, steps, every)))
+    return max(1, min(wanted, max(threads, TASK // run_memory(nodes, steps, every))))
 
 
 def available_memory() -> int:

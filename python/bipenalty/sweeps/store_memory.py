@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -26,10 +27,15 @@ class MemoryStore:
     ) -> None:
         self.layout, self.coordinates, self.attrs = layout, coordinates, dict(attrs)
         self.variables = layout.variables(timed)
-        self.arrays: Arrays = {}
+
+    @functools.cached_property
+    def arrays(self) -> Arrays:
+        """The arrays, made when they are first needed: until then Ctrl-C has nothing to wait for."""
+        found: Arrays = {}
         for variable in self.variables:
-            shape = (*layout.shape, layout.samples) if variable.kind == "history" else layout.shape
-            self.arrays[variable.name] = np.full(shape, variable.fill, dtype=_TYPES[variable.kind])
+            shape = (*self.layout.shape, self.layout.samples) if variable.kind == "history" else self.layout.shape
+            found[variable.name] = np.full(shape, variable.fill, dtype=_TYPES[variable.kind])
+        return found
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[None]:

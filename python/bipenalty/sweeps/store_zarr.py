@@ -115,11 +115,9 @@ class ZarrStore:
         return group.create_array(name, shape=shape, chunks=chunks, dtype=dtype, **more)
 
     def _sweep_up(self) -> None:
-        """Chunks have numbers for names; anything else is what was being written when a driver was killed."""
-        for folder, _, names in os.walk(self.path):
-            for name in names:
-                if name not in ("zarr.json", "c") and not name.isdigit():
-                    Path(folder, name).unlink()
+        """Remove the files that zarr was writing when a driver was killed."""
+        for partial in self.path.rglob("*.partial"):
+            partial.unlink()
 
     def done(self) -> set[int]:
         """Tasks that are marked."""
