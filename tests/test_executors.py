@@ -77,6 +77,8 @@ def test_worker_of_a_pool_is_killed() -> None:
         with killing(lambda: list(executor._processes or []), 1) as killed:
             same(call(None, executor=executor))
         assert len(killed) == 1
+        with pytest.raises(cf.process.BrokenProcessPool):
+            executor.submit(int)
 
 
 @pytest.fixture(scope="module")

@@ -190,6 +190,8 @@ def test_two_drivers(kind: str, tmp_path: Path, undisturbed: Callable[[str], Pat
     store = tmp_path / f"run.{kind}"
     with driver(store, tmp_path / "first.log") as process:
         until(lambda: len(done(store)) >= 1)
+        process.send_signal(signal.SIGSTOP)  # at work for as long as this test wants it to be
+        assert len(done(store)) < TASKS
         with pytest.raises(InputError, match=rf"run.{kind}\": is in use by process {process.pid} on .*wait for it"):
             call(store)
         process.kill()
