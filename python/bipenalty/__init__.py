@@ -27,7 +27,7 @@ from bipenalty.result import Result
 from bipenalty.result_dataset import package_version
 from bipenalty.row_restitution import restitution, restitution_map
 from bipenalty.scene import Scene
-from bipenalty.sweep import sweep
+from bipenalty.sweeps import grid, sweep, sweep_memory
 
 __version__ = package_version()
 
@@ -52,10 +52,12 @@ __all__ = [
     "Stiffness",
     "Support",
     "exact",
+    "grid",
     "io",
     "mesh",
     "restitution",
     "restitution_map",
     "plot",
     "sweep",
+    "sweep_memory",
 ]

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::crew::{Crew, LARGE};
 use crate::ended::{Ended, Summary};
+use crate::error::Result;
 use crate::group::{Group, WIDTHS};
 use crate::model::Model;
 use crate::run::RunSpec;
@@ -42,6 +43,14 @@ impl Batch {
         let ended = specs.iter().map(|_| Mutex::new(None)).collect();
         let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
         Self { model, isa, width, specs, next, finished, ended, workers: Mutex::default() }
+    }
+
+    /// Whether a run can begin.
+    ///
+    /// # Errors
+    /// What is out of its bounds; such a run ends as refused.
+    pub fn check(&self, number: usize) -> Result<()> {
+        self.specs.get(number).map_or(Ok(()), |spec| spec.checked_model(&self.model).map(|_| ()))
     }
 
     /// Works on the runs for about `budget` on `threads` threads; returns the node-steps done.
