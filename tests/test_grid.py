@@ -174,7 +174,7 @@ def test_memory_is_stated_and_kept_to() -> None:
     for histories in (False, True, 10):
         data = bp.grid(SCENE, 0.1, {"ps": np.geomspace(0.1, 10, 300)}, histories=histories)
         steps = int(data.steps.max())
-        assert data.attrs["memory"] == bp.sweep_memory(SCENE, 300, steps, histories=histories, chunk=256)
+        assert data.attrs["memory"] == bp.sweep_memory(SCENE, 300, steps, histories=histories)
         words = sum(len(text) for text in data.reason.values)
         assert data.nbytes + words < data.attrs["memory"]
     many = [bp.sweep_memory(SCENE, runs, 1000, histories=True) for runs in (100_000, 200_000)]
