@@ -30,6 +30,8 @@ pub struct Envelope {
     pub start: Vec<u32>,
     /// Products that make up the matrix.
     pub terms: Vec<Term>,
+    /// Nodes that the rows touch.
+    pub nodes: usize,
     /// Multiplications of a factorisation.
     pub operations: usize,
     /// How often the pattern has changed.
@@ -57,6 +59,7 @@ impl Envelope {
             self.touched.extend((0..).zip(row.entries()).map(|(entry, (node, _))| (node, number, entry)));
         }
         self.touched.sort_unstable();
+        self.nodes = self.touched.chunk_by(|a, b| a.0 == b.0).count();
         self.number(rows);
         self.shape(rows.len());
         self.products();

@@ -52,7 +52,7 @@ impl MassBlock {
             return Ok(());
         }
         self.dual.envelope.update(rows);
-        let solver = self.forced.unwrap_or_else(|| choice::solver(rows.len(), self.dual.envelope.operations));
+        let solver = self.forced.unwrap_or_else(|| choice::solver(rows.len(), self.dual.envelope.nodes));
         self.used = Some(solver);
         match solver {
             Solver::Dual => self.dual.solve(inverse_mass, rows, dt, forces),
@@ -64,6 +64,11 @@ impl MassBlock {
     /// How often the pattern of the rows has changed and been analysed anew.
     pub fn analyses(&self) -> usize {
         self.dual.envelope.analyses
+    }
+
+    /// Multiplications that factorising the dual's envelope takes.
+    pub fn operations(&self) -> usize {
+        self.dual.envelope.operations
     }
 
     /// The solver used last; none so far if no row has had a mass or damping penalty.
