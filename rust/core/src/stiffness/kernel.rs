@@ -6,7 +6,7 @@ use super::BlockCsr;
 use super::rows::{Force, Rows};
 use super::simd::{Isa, Loop, Madd, dispatch};
 #[cfg(target_arch = "x86_64")]
-use super::single;
+use super::{single, wide};
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
 pub struct Pass<'a, const L: usize> {
@@ -41,8 +41,13 @@ pub fn advance<const L: usize>(
     next: &mut [[f64; L]],
 ) {
     #[cfg(target_arch = "x86_64")]
-    if L == 1 && isa != Isa::Baseline && isa.is_here() {
-        return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+    match (L, isa) {
+        (1, Isa::Avx2 | Isa::Avx512) if isa.is_here() => {
+            return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+        }
+        (8, Isa::Avx512) if isa.is_here() => return wide::advance::<L, 1>(pass, range, velocity, next),
+        (16, Isa::Avx512) if isa.is_here() => return wide::advance::<L, 2>(pass, range, velocity, next),
+        _ => {}
     }
     dispatch(isa, Advance { pass, range, velocity, next });
 }
@@ -57,59 +62,63 @@ struct Advance<'a, const L: usize> {
 impl<const L: usize> Loop for Advance<'_, L> {
     type Output = ();
 
-    /// The loop itself, without loads where the scene has none.
     #[inline(always)]
     fn run<M: Madd>(self) {
-        match self.pass.load {
-            None => self.sweep::<M>(|_, v, _| v),
-            Some(load) => self.sweep::<M>(|node, v, dt_w| {
-                let f = load[node];
-                std::array::from_fn(|axis| {
-                    std::array::from_fn(|lane| M::madd(dt_w[axis][lane], f[axis], v[axis][lane]))
-                })
-            }),
+        let Self { pass, range, velocity, next } = self;
+        let rows = Rows::new(pass.stiffness, pass.displacement);
+        let nodes = range.len();
+        let inverse_mass = &pass.inverse_mass[range.clone()];
+        let load = pass.load.map(|load| &load[range.clone()]);
+        let velocity = &mut velocity.as_chunks_mut::<2>().0[..nodes];
+        let next = &mut next.as_chunks_mut::<2>().0[..nodes];
+        // Copied, so that nothing written can be one of them: they stay in registers.
+        let update = Update { dt: pass.dt, elastic_dt: pass.elastic_dt.map(|dt| -dt), load_dt: pass.load_dt };
+        for at in 0..nodes {
+            let (node, f) = (range.start + at, load.map(|load| load[at]));
+            let force = rows.one::<M>(node);
+            next[at] = update.node::<M>(inverse_mass[at], f, &force, &mut velocity[at], rows.at(node));
         }
     }
 }
 
-impl<const L: usize> Advance<'_, L> {
-    /// `loaded` adds dt M^-1 f to a node's velocity.
+/// What multiplies velocity, M^-1 K u (negative) and M^-1 f.
+struct Update<const L: usize> {
+    dt: [f64; L],
+    elastic_dt: [f64; L],
+    load_dt: [f64; L],
+}
+
+impl<const L: usize> Update<L> {
+    /// New velocity of a node in place, and its new displacement from x, under the force K u and the load f.
+    #[expect(clippy::needless_range_loop, reason = "one index counts lanes in several arrays")]
     #[inline(always)]
-    fn sweep<M: Madd>(self, loaded: impl Fn(usize, Force<L>, Force<L>) -> Force<L>) {
-        let Pass { dt, elastic_dt, load_dt, .. } = *self.pass;
-        let rows = Rows::new(self.pass.stiffness, self.pass.displacement);
-        let inverse_mass = &self.pass.inverse_mass[self.range.clone()];
-        let velocity = &mut self.velocity.as_chunks_mut::<2>().0[..self.range.len()];
-        let next = &mut self.next.as_chunks_mut::<2>().0[..self.range.len()];
-        let mut update = |at: usize, force: Force<L>| {
-            let (node, w, v) = (self.range.start + at, inverse_mass[at], &mut velocity[at]);
-            let mut new = *v;
-            for axis in 0..2 {
-                for lane in 0..L {
-                    new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
-                }
-            }
-            new = loaded(node, new, w.map(|w| load_dt.map(|dt| dt * w)));
-            let x = rows.at(node);
-            for axis in 0..2 {
-                for lane in 0..L {
-                    next[at][axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);
-                }
-            }
-            *v = new;
-        };
-        let mut at = 0;
-        while at < self.range.len() {
-            let node = self.range.start + at;
-            if M::PAIRS && L > 1 && at + 1 < self.range.len() && rows.paired(node) {
-                let [a, b] = rows.two::<M>(node);
-                update(at, a);
-                update(at + 1, b);
-                at += 2;
-            } else {
-                update(at, rows.one::<M>(node));
-                at += 1;
+    fn node<M: Madd>(
+        &self,
+        w: [f64; 2],
+        f: Option<[f64; 2]>,
+        force: &Force<L>,
+        v: &mut [[f64; L]; 2],
+        x: &[[f64; L]; 2],
+    ) -> [[f64; L]; 2] {
+        let (mut new, mut moved) = (*v, *x);
+        for axis in 0..2 {
+            for lane in 0..L {
+                new[axis][lane] = M::madd(self.elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
             }
         }
+        if let Some(f) = f {
+            for axis in 0..2 {
+                for lane in 0..L {
+                    new[axis][lane] = M::madd(self.load_dt[lane] * w[axis], f[axis], new[axis][lane]);
+                }
+            }
+        }
+        for axis in 0..2 {
+            for lane in 0..L {
+                moved[axis][lane] = M::madd(self.dt[lane], new[axis][lane], moved[axis][lane]);
+            }
+        }
+        *v = new;
+        moved
     }
 }
