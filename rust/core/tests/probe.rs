@@ -18,6 +18,22 @@ fn multiply_adds_come_at_a_finite_rate() {
     }
 }
 
+/// A loop that is not compiled for its set makes library calls, tenfold slower than the baseline.
+#[test]
+fn wide_instruction_sets_are_no_slower() {
+    let model = Model::new(blocks(true, 1)).unwrap();
+    for isa in Isa::available() {
+        assert!(fma_rate(isa) > 0.7 * fma_rate(Isa::Baseline), "{isa:?}");
+        for lanes in [1, 8, 16] {
+            let seconds = |isa| {
+                let once = |_| kernel(&model, lanes, isa, 100, 0..model.points.len()).unwrap();
+                (0..5).map(once).fold(f64::INFINITY, f64::min)
+            };
+            assert!(0.7 * seconds(isa) < seconds(Isa::Baseline), "{isa:?}, {lanes} lanes");
+        }
+    }
+}
+
 #[test]
 fn bandwidth_of_a_small_and_a_larger_set() {
     for bytes in [1 << 14, 1 << 20] {

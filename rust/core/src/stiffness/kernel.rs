@@ -6,7 +6,7 @@ use super::BlockCsr;
 use super::rows::{Force, Rows};
 use super::simd::{Isa, Loop, Madd, dispatch};
 #[cfg(target_arch = "x86_64")]
-use super::single;
+use super::{single, wide};
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
 #[derive(Clone, Copy)]
@@ -42,8 +42,13 @@ pub fn advance<const L: usize>(
     next: &mut [[f64; L]],
 ) {
     #[cfg(target_arch = "x86_64")]
-    if L == 1 && isa != Isa::Baseline && isa.is_here() {
-        return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+    match (L, isa) {
+        (1, Isa::Avx2 | Isa::Avx512) if isa.is_here() => {
+            return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+        }
+        (8, Isa::Avx512) if isa.is_here() => return wide::advance::<L, 1>(pass, range, velocity, next),
+        (16, Isa::Avx512) if isa.is_here() => return wide::advance::<L, 2>(pass, range, velocity, next),
+        _ => {}
     }
     dispatch(isa, Advance { pass, range, velocity, next });
 }
@@ -59,51 +64,62 @@ impl<const L: usize> Loop for Advance<'_, L> {
     type Output = ();
 
     #[inline(always)]
-    fn run<M: Madd>(mut self) {
-        let rows = Rows::new(self.pass.stiffness, self.pass.displacement);
-        let mut node = self.range.start;
-        while node < self.range.end {
-            if M::PAIRS && L > 1 && node + 1 < self.range.end && rows.paired(node) {
-                let [force, next_force] = rows.two::<M>(node);
-                self.update::<M>(node, force, rows.at(node));
-                self.update::<M>(node + 1, next_force, rows.at(node + 1));
-                node += 2;
-            } else {
-                self.update::<M>(node, rows.one::<M>(node), rows.at(node));
-                node += 1;
-            }
+    fn run<M: Madd>(self) {
+        let Self { pass, range, velocity, next } = self;
+        let rows = Rows::new(pass.stiffness, pass.displacement);
+        let nodes = range.len();
+        let inverse_mass = &pass.inverse_mass[range.clone()];
+        let load = pass.load.map(|load| &load[range.clone()]);
+        let velocity = &mut velocity.as_chunks_mut::<2>().0[..nodes];
+        let next = &mut next.as_chunks_mut::<2>().0[..nodes];
+        // Copied, so that nothing written can be one of them: they stay in registers.
+        let update = Update { dt: pass.dt, elastic_dt: pass.elastic_dt.map(|dt| -dt), load_dt: pass.load_dt };
+        for at in 0..nodes {
+            let (node, f) = (range.start + at, load.map(|load| load[at]));
+            let force = rows.one::<M>(node);
+            next[at] = update.node::<M>(inverse_mass[at], f, &force, &mut velocity[at], rows.at(node));
         }
     }
 }
 
-impl<const L: usize> Advance<'_, L> {
-    /// Velocity and displacement x of one node under the force K u.
+/// What multiplies velocity, M^-1 K u (negative) and M^-1 f.
+struct Update<const L: usize> {
+    dt: [f64; L],
+    elastic_dt: [f64; L],
+    load_dt: [f64; L],
+}
+
+impl<const L: usize> Update<L> {
+    /// New velocity of a node in place, and its new displacement from x, under the force K u and the load f.
+    #[expect(clippy::needless_range_loop, reason = "one index counts lanes in several arrays")]
     #[inline(always)]
-    fn update<M: Madd>(&mut self, node: usize, force: Force<L>, x: &[[f64; L]; 2]) {
-        // Copied, so that what is written cannot be one of them: each loop over lanes is then one instruction a register.
-        let Pass { dt, elastic_dt, load_dt, .. } = *self.pass;
-        let (w, at) = (self.pass.inverse_mass[node], node - self.range.start);
-        let v = &mut self.velocity.as_chunks_mut::<2>().0[at];
+    fn node<M: Madd>(
+        &self,
+        w: [f64; 2],
+        f: Option<[f64; 2]>,
+        force: &Force<L>,
+        v: &mut [[f64; L]; 2],
+        x: &[[f64; L]; 2],
+    ) -> [[f64; L]; 2] {
         let (mut new, mut moved) = (*v, *x);
         for axis in 0..2 {
             for lane in 0..L {
-                new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
+                new[axis][lane] = M::madd(self.elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
             }
         }
-        if let Some(load) = self.pass.load {
-            let f = load[node];
+        if let Some(f) = f {
             for axis in 0..2 {
                 for lane in 0..L {
-                    new[axis][lane] = M::madd(load_dt[lane] * w[axis], f[axis], new[axis][lane]);
+                    new[axis][lane] = M::madd(self.load_dt[lane] * w[axis], f[axis], new[axis][lane]);
                 }
             }
         }
         for axis in 0..2 {
             for lane in 0..L {
-                moved[axis][lane] = M::madd(dt[lane], new[axis][lane], moved[axis][lane]);
+                moved[axis][lane] = M::madd(self.dt[lane], new[axis][lane], moved[axis][lane]);
             }
         }
         *v = new;
-        self.next.as_chunks_mut::<2>().0[at] = moved;
+        moved
     }
 }

@@ -8,6 +8,8 @@ mod rows;
 pub(crate) mod simd;
 #[cfg(target_arch = "x86_64")]
 mod single;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 
 pub use aligned::Aligned;
 pub use block::Block;

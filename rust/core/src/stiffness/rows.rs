@@ -6,6 +6,9 @@ use super::{Block, BlockCsr};
 /// Force of one node by axis and lane.
 pub(super) type Force<const L: usize> = [[f64; L]; 2];
 
+/// Nine blocks and their columns.
+pub(super) type Nine<'a> = (&'a [Block; 9], &'a [u32; 9]);
+
 /// K and u of a pass, known to fit each other.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a, const L: usize> {
@@ -29,7 +32,7 @@ impl<'a, const L: usize> Rows<'a, L> {
         &self.u[node]
     }
 
-    /// True when a node and the next can share the displacements of their neighbours.
+    /// True when the rows of a node and the next can share the displacements of their neighbours.
     #[inline(always)]
     pub(super) fn paired(self, node: usize) -> bool {
         self.stiffness.paired[node]
@@ -37,17 +40,24 @@ impl<'a, const L: usize> Rows<'a, L> {
 
     /// Displacement of a column.
     #[inline(always)]
-    fn column(self, column: u32) -> &'a [[f64; L]; 2] {
+    pub(super) fn column(self, column: u32) -> &'a [[f64; L]; 2] {
         // SAFETY: every column is a node of the matrix, and `new` has found at least as many nodes in u.
         unsafe { self.u.get_unchecked(column as usize) }
     }
 
     /// Blocks and columns of one row.
     #[inline(always)]
-    fn row(self, node: usize) -> (&'a [Block], &'a [u32]) {
+    pub(super) fn row(self, node: usize) -> (&'a [Block], &'a [u32]) {
         let row = self.stiffness.row_start[node] as usize..self.stiffness.row_start[node + 1] as usize;
         // SAFETY: row starts never fall and end with the number of blocks, which is also that of the columns.
         unsafe { (self.stiffness.block.get_unchecked(row.clone()), self.stiffness.column.get_unchecked(row)) }
+    }
+
+    /// A row of nine blocks with its columns; none for one of another length.
+    #[inline(always)]
+    pub(super) fn nine(self, node: usize) -> Option<Nine<'a>> {
+        let (blocks, columns) = self.row(node);
+        Some((blocks.try_into().ok()?, columns.try_into().ok()?))
     }
 
     /// One row times u, as many lanes at a time as have their sums in registers.
@@ -68,7 +78,7 @@ impl<'a, const L: usize> Rows<'a, L> {
         while first < L {
             let mut sum = [[0.0; C]; 4];
             // Inner nodes of quads have nine blocks: a known number needs no loop.
-            if let Some((blocks, columns)) = nine(blocks, columns) {
+            if let Some((blocks, columns)) = self.nine(node) {
                 for b in 0..9 {
                     accumulate::<L, C, M>(&mut sum, &blocks[b], self.column(columns[b]), first);
                 }
@@ -82,32 +92,6 @@ impl<'a, const L: usize> Rows<'a, L> {
                 force[1][first + lane] = sum[1][lane] + sum[2][lane];
             }
             first += C;
-        }
-        force
-    }
-
-    /// The rows of a pair: each displacement they share is loaded once.
-    #[inline(always)]
-    pub(super) fn two<M: Madd>(self, node: usize) -> [Force<L>; 2] {
-        let [(ka, ca), (kb, cb)] = [self.row(node), self.row(node + 1)];
-        let mut sum = [[[0.0; L]; 4]; 2];
-        let (Some((ka, ca)), Some((kb, cb))) = (nine(ka, ca), nine(kb, cb)) else {
-            return [self.one::<M>(node), self.one::<M>(node + 1)];
-        };
-        for t in [0, 3, 6] {
-            accumulate::<L, L, M>(&mut sum[0], &ka[t], self.column(ca[t]), 0);
-            for s in [t, t + 1] {
-                accumulate::<L, L, M>(&mut sum[0], &ka[s + 1], self.column(cb[s]), 0);
-                accumulate::<L, L, M>(&mut sum[1], &kb[s], self.column(cb[s]), 0);
-            }
-            accumulate::<L, L, M>(&mut sum[1], &kb[t + 2], self.column(cb[t + 2]), 0);
-        }
-        let mut force = [[[0.0; L]; 2]; 2];
-        for row in 0..2 {
-            for lane in 0..L {
-                force[row][0][lane] = sum[row][0][lane] + sum[row][3][lane];
-                force[row][1][lane] = sum[row][1][lane] + sum[row][2][lane];
-            }
         }
         force
     }
@@ -127,10 +111,4 @@ fn accumulate<const L: usize, const C: usize, M: Madd>(
             sum[entry][lane] = M::madd(block.0[entry], u[lane], sum[entry][lane]);
         }
     }
-}
-
-/// A row of nine blocks with its columns.
-#[inline(always)]
-fn nine<'a>(blocks: &'a [Block], columns: &'a [u32]) -> Option<(&'a [Block; 9], &'a [u32; 9])> {
-    Some((blocks.try_into().ok()?, columns.try_into().ok()?))
 }

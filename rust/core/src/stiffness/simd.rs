@@ -49,7 +49,7 @@ impl Isa {
     }
 
     /// True when this machine has it.
-    pub(super) fn is_here(self) -> bool {
+    pub(crate) fn is_here(self) -> bool {
         match self {
             Self::Baseline => true,
             #[cfg(target_arch = "x86_64")]
@@ -66,8 +66,6 @@ impl Isa {
 pub(crate) trait Madd {
     /// Numbers in a register.
     const WIDTH: usize;
-    /// Registers for the sums of two rows at once.
-    const PAIRS: bool;
     /// `a b + c`, fused where the instruction set has it: without hardware support fusing is a slow library call.
     fn madd(a: f64, b: f64, c: f64) -> f64;
 }
@@ -78,7 +76,6 @@ struct Avx512;
 
 impl Madd for Baseline {
     const WIDTH: usize = 2;
-    const PAIRS: bool = false;
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a * b + c
@@ -87,7 +84,6 @@ impl Madd for Baseline {
 
 impl Madd for Avx2 {
     const WIDTH: usize = 4;
-    const PAIRS: bool = false;
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)
@@ -96,7 +92,6 @@ impl Madd for Avx2 {
 
 impl Madd for Avx512 {
     const WIDTH: usize = 8;
-    const PAIRS: bool = true;
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)
