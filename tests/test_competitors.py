@@ -128,13 +128,13 @@ def test_a_lane_is_the_run_alone(method: Method) -> None:
     methods.insert(6, method)
     none = {"velocity": None, "offset": None, "young": None, "density": None}
     runs = [SimpleNamespace(method=m, dt=dt, steps=steps - 7 * (i != 6) * i, **none) for i, m in enumerate(methods)]
-    batch = _core.Batch(core, runs, scene.velocity, scene.displacement, lanes=16, every=1, energy_every=5)  # type: ignore[call-arg,arg-type]
+    batch = _core.Batch(core, runs, scene.velocity, scene.displacement, lanes=16, every=1, energy_every=5)
     while batch.finished < len(batch):
         batch.advance(1, 0.5)
-    alone = _core.Batch(core, runs[6:7], scene.velocity, scene.displacement, lanes=1, every=1, energy_every=5)  # type: ignore[call-arg,arg-type]
+    alone = _core.Batch(core, runs[6:7], scene.velocity, scene.displacement, lanes=1, every=1, energy_every=5)
     while alone.finished < 1:
         alone.advance(1, 0.5)
-    run = _core.Run(core, method, dt, False, scene.velocity, scene.displacement, "auto")  # type: ignore[call-arg]
+    run = _core.Run(core, method, dt, False, scene.velocity, scene.displacement, "auto", None)
     run.configure(1, 5, [], math.inf, steps)
     run.advance(steps, True)
     ours = batch.observations(6)
@@ -188,4 +188,4 @@ def test_ps_out_of_bounds() -> None:
     with pytest.raises(bp.InputError, match="PredictorCorrector: ps = -1, must be >= 0"):
         bp.PredictorCorrector(-1.0)
     with pytest.raises(bp.InputError, match="PredictorCorrector: ps = 'auto', must be a number"):
-        bp.PredictorCorrector("auto")  # type: ignore[arg-type]
+        bp.PredictorCorrector("auto")
