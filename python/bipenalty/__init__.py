@@ -20,7 +20,16 @@ from bipenalty.critical_step import CriticalStep
 from bipenalty.errors import BipenaltyError, InputError, RunError
 from bipenalty.materials import LinearElastic
 from bipenalty.mesh import Mesh
-from bipenalty.methods import Bipenalty, ElementStiffness, Method, NodalMassStiffness, Stiffness
+from bipenalty.methods import (
+    Bipenalty,
+    CDLagrange,
+    ElementStiffness,
+    ForwardIncrementLagrange,
+    Method,
+    NodalMassStiffness,
+    PredictorCorrector,
+    Stiffness,
+)
 from bipenalty.model import Model
 from bipenalty.obstacles import HalfPlane, Polyline
 from bipenalty.result import Result
@@ -35,9 +44,11 @@ __all__ = [
     "BipenaltyError",
     "Bipenalty",
     "Body",
+    "CDLagrange",
     "Contact",
     "CriticalStep",
     "ElementStiffness",
+    "ForwardIncrementLagrange",
     "HalfPlane",
     "InputError",
     "LinearElastic",
@@ -46,6 +57,7 @@ __all__ = [
     "Model",
     "NodalMassStiffness",
     "Polyline",
+    "PredictorCorrector",
     "Result",
     "RunError",
     "Scene",

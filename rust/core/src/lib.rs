@@ -13,6 +13,7 @@ pub mod critical_step;
 pub mod element;
 pub mod ended;
 pub mod energy;
+pub mod enforcement;
 pub mod error;
 pub mod group;
 pub mod history;

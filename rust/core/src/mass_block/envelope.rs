@@ -140,4 +140,16 @@ impl Envelope {
             }
         }
     }
+
+    /// Values of `G M^-1 G'`, the lower triangle in the envelope; it must be up to date with the rows.
+    pub fn gram(&self, inverse_mass: &[[f64; 2]], rows: &[Row], values: &mut Vec<f64>) {
+        values.clear();
+        values.resize(self.start[rows.len()] as usize, 0.0);
+        for term in &self.terms {
+            let [(a, ea), (b, eb)] = term.factors;
+            let ((node, ga), (_, gb)) = (rows[a as usize].entry(ea), rows[b as usize].entry(eb));
+            let w = inverse_mass[node as usize];
+            values[term.slot as usize] += term.times * (w[0] * ga[0] * gb[0] + w[1] * ga[1] * gb[1]);
+        }
+    }
 }
