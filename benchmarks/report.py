@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import timed_scenes as scenes
 from claims import Claim
-from measure import Array, Plan, Spread, Steps, ratio, spread
+from measure import Array, Spread, Steps, ratio, spread
+from plan import Plan
 from versus_script import EQUAL, Duel
 
 #: Rows of the table of single steps, and of the table of what a scene costs.
@@ -146,13 +147,10 @@ def expectations(claims: Sequence[Claim], judged: bool) -> str:
     )
 
 
-def whole(
-    about: dict[str, str], plan: Plan, steps: Steps, nodes: int, duels: Sequence[Duel], claims: Sequence[Claim]
-) -> str:
+def whole(about: dict[str, str], plan: Plan, sections: Sequence[str]) -> str:
     """The report."""
     note = (
         "Each ratio is taken round by round; median of the rounds ± half-width of its 95 % interval (1.57 IQR/sqrt(n), "
         "McGill, Tukey and Larsen 1978)."
     )
-    tables = [single_steps(steps, nodes), against_script(duels), parts(steps, nodes), expectations(claims, plan.judged)]
-    return "\n\n".join(["# Benchmarks", note, machine(about, plan), *tables]) + "\n"
+    return "\n\n".join(["# Benchmarks", note, machine(about, plan), *sections]) + "\n"

@@ -54,9 +54,9 @@ def test_quick_run_writes_finite_numbers_and_a_report(load: Any, tmp_path: Path,
 
 
 def test_scenes_hold_what_their_names_say(load: Any) -> None:
-    scenes, measure = load("timed_scenes"), load("measure")
+    scenes, measure, plan = load("timed_scenes"), load("measure"), load("plan")
     cases = {case.name: case for case in scenes.cases(24)}
-    rows = {name: measure._active_rows(case, measure.QUICK) for name, case in cases.items()}
+    rows = {name: measure._active_rows(case, plan.QUICK) for name, case in cases.items()}
     touching = {scenes.STIFFNESS, scenes.STIFFNESS_DAMPED, scenes.BIPENALTY, scenes.BIPENALTY_DAMPED, scenes.WALL}
     assert {name for name, active in rows.items() if active > 0} == touching
     assert {name for name, case in cases.items() if case.scene.contacts} == touching | {scenes.APART, scenes.WALL_FAR}
@@ -66,10 +66,10 @@ def test_scenes_hold_what_their_names_say(load: Any) -> None:
 
 
 def test_what_is_recorded_stays_set_while_it_is_timed(load: Any) -> None:
-    scenes, measure = load("timed_scenes"), load("measure")
+    scenes, measure, plan = load("timed_scenes"), load("measure"), load("plan")
     lengths = {}
     for case in scenes.cases(24):
-        model = measure._started(case, measure.QUICK)
+        model = measure.started(case, plan.QUICK)
         model.step(20)
         data = model.result().dataset
         lengths[case.name] = data.sizes["time"], data.sizes["energy_time"]
