@@ -30,3 +30,8 @@ class Lagrange(StiffnessOnly):
     def enforcement_rule(self) -> Rule:
         """Which multipliers, and their tolerance."""
         raise NotImplementedError
+
+    @property
+    def label(self) -> str:
+        """Name for legends and tables."""
+        raise NotImplementedError
