@@ -51,15 +51,13 @@ impl Assembled {
 
 /// Zero matrix whose pattern couples all nodes that share an element.
 fn pattern(mesh: &Mesh) -> BlockCsr {
-    let mut elements_of: Vec<Vec<&[usize]>> = vec![Vec::new(); mesh.points.len()];
+    let mut columns: Vec<Vec<u32>> = vec![Vec::with_capacity(16); mesh.points.len()];
     for (_, _, nodes) in mesh.elements() {
-        nodes.iter().for_each(|&n| elements_of[n].push(nodes));
+        nodes.iter().for_each(|&n| columns[n].extend(nodes.iter().map(|&m| m as u32)));
     }
-    let columns = |elements: Vec<&[usize]>| {
-        let mut columns: Vec<u32> = elements.into_iter().flatten().map(|&n| n as u32).collect();
+    for columns in &mut columns {
         columns.sort_unstable();
         columns.dedup();
-        columns
-    };
-    BlockCsr::zeros(&elements_of.into_iter().map(columns).collect::<Vec<_>>())
+    }
+    BlockCsr::zeros(&columns)
 }
