@@ -1,6 +1,6 @@
 """The measurements behind the performance claims: writes out/bench.json and out/bench.md.
 
-python benchmarks/run.py            some five minutes, on a quiet machine
+python benchmarks/run.py            some four minutes on a quiet machine
 python benchmarks/run.py --quick    a coarse mesh and few rounds, to see that it works
 """
 

@@ -7,7 +7,8 @@ from measure import ratio, spread
 from speed import single
 from speed.kernel import Cell
 from speed.large import Size, exponents
-from speed.single import Single, Start
+from speed.single import Single
+from speed.start import Start
 from speed.sweep import Sweep
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from claims import Claim
 from plan import Plan
 
-from speed import claims, kernel, large, report, report_runs, single, sweep, widths
+from speed import claims, kernel, large, report, report_runs, single, start, sweep, widths
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ def measured(plan: Plan, say: Callable[[str], None]) -> Speed:
     say(f"bare kernel, {plan.kernel_rounds} rounds")
     cells = kernel.cells(plan)
     say(f"one run, {plan.single_rounds} rounds; its start, {plan.start_rounds}")
-    alone, start = single.measured(plan), single.of_start(plan)
+    alone, begun = single.measured(plan), start.measured(plan)
     say(f"whole sweep, {plan.sweep_rounds} rounds")
     whole = sweep.measured(plan)
     say(f"numbers of lanes, {plan.width_rounds} rounds")
@@ -34,7 +34,7 @@ def measured(plan: Plan, say: Callable[[str], None]) -> Speed:
     found = {
         "kernel": cells,
         "one_run": alone,
-        "start": start,
+        "start": begun,
         "sweep": whole,
         "lanes": [*methods, *sizes],
         "large": models,
@@ -48,13 +48,13 @@ def measured(plan: Plan, say: Callable[[str], None]) -> Speed:
         report.widths(methods, sizes),
         report_runs.single(alone),
         report_runs.large(models),
-        report_runs.start(start),
+        report_runs.start(begun),
     ]
     expected = [
         *claims.of_kernel(cells),
         *claims.of_sweep(whole),
         *claims.of_single(alone),
         *claims.of_large(models),
-        *claims.of_start(start),
+        *claims.of_start(begun),
     ]
     return Speed(data, tables, expected)

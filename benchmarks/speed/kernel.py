@@ -53,6 +53,7 @@ def cells(plan: Plan) -> list[Cell]:
             keys.append((f"{count.nodes}, {lanes}", count, lanes))
             cases[f"kernel {keys[-1][0]}"] = lambda c=core, n=count.nodes, k=lanes: kernel_seconds(c, n, k, work)
             cases[f"memory {keys[-1][0]}"] = lambda c=count, k=lanes: c.streaming(k) / k
-    found = interleaved(cases, plan.kernel_rounds, plan.places)
+    ceilings = [name for name in cases if not name.startswith("kernel")]
+    found = interleaved(cases, plan.kernel_rounds, plan.places, once=ceilings)
     madd = found["multiply-add"]
     return [Cell(c, lanes, found[f"kernel {key}"], found[f"memory {key}"], madd) for key, c, lanes in keys]

@@ -3,8 +3,9 @@
 import functools
 import itertools
 import math
+import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +20,7 @@ from speed.ceilings import Counts, counts
 from speed.rounds import interleaved
 from speed.sweep import cores
 
-#: Bandwidth falls by more than this from one size to the next where the larger one no longer fits into a cache.
+#: Bandwidth falls by more than this from one size to the next where the larger one no longer fits into a level.
 FALL = 1.5
 #: Bytes a node that mesh, model and two runs take while they are built, with room to spare.
 ROOM = 3000
@@ -74,7 +75,7 @@ def sizes(plan: Plan) -> list[Size]:
         cases[f"{count.nodes}, memory"] = functools.partial(count.streaming, 1)
     found = interleaved(cases, plan.large_rounds)
     streaming = [found[f"{count.nodes}, memory"] for count in kept]
-    levels = levels_of([float(np.median(seconds)) for seconds in streaming])
+    levels = levels_of([count.working_set(1) for count in kept], [float(min(s)) for s in streaming], own_cache())
     return [
         Size(count, level, {n: found[f"{count.nodes}, threads {n}"] for n in threads}, memory)
         for count, level, memory in zip(kept, levels, streaming, strict=True)
@@ -101,16 +102,33 @@ def _step_seconds(run: _core.Run, nodes: int, work: float) -> float:
     return min(spent) / (steps * nodes)
 
 
-def levels_of(streaming: list[float]) -> list[int]:
-    """Level of memory of each size, from the seconds per node-step that memory takes.
+def own_cache() -> int:
+    """Bytes of the largest cache that a core has to itself; 0 where the system does not tell."""
+    try:
+        return max(0, os.sysconf("SC_LEVEL2_CACHE_SIZE"))
+    except (AttributeError, OSError, ValueError):
+        return 0
+
+
+def levels_of(working_sets: Sequence[int], streaming: Sequence[float], own: int) -> list[int]:
+    """Level of memory of each size, 0 for the core's own cache.
+
+    Parameters
+    ----------
+    working_sets : bytes that a step goes through, ascending.
+    streaming : least seconds per node-step that memory takes: beyond the own cache a jump begins a new level.
+    own : bytes of the core's own cache; 0 if unknown, and its edge is a jump too.
 
     Example
     -------
-    >>> levels_of([1.0, 1.1, 2.1, 2.3, 9.0])
-    [0, 0, 1, 1, 2]
+    >>> levels_of([1, 2, 8, 16, 64], [1.0, 1.1, 1.4, 2.3, 9.0], own=4)
+    [0, 0, 1, 2, 3]
     """
-    rises = [0, *(int(later > FALL * sooner) for sooner, later in itertools.pairwise(streaming))]
-    return [int(level) for level in np.cumsum(rises)]
+    levels, pairs = [0], itertools.pairwise(zip(working_sets, streaming, strict=True))
+    for (small, sooner), (large, later) in pairs:
+        over = small <= own < large
+        levels.append(levels[-1] + int(over or (large > own and later > FALL * sooner)))
+    return levels
 
 
 def exponents(measured: list[Size], threads: int = 1) -> dict[int, Array]:

@@ -60,8 +60,8 @@ def kernel(cells: Sequence[Cell]) -> str:
     ]
     rate = spread(1e-9 / cells[0].multiply_add)
     counted = "; ".join(
-        f"{c.nodes} nodes: {c.blocks / c.nodes:.2f} blocks a row, {c.multiply_adds:.1f} multiply-adds per node-step and "
-        f"lane, {c.read:.0f} bytes per node-step and {c.moved} a lane, {c.resident(1):.0f} bytes a node with one lane, "
+        f"{c.nodes} nodes: {c.blocks / c.nodes:.2f} blocks a row, {c.multiply_adds:.1f} multiply-adds per node-step "
+        f"and lane, {c.read:.0f} bytes per node-step and {c.moved} a lane, {c.resident(1):.0f} bytes a node with one lane, "
         f"{c.resident(16) / 16:.0f} per node and lane with 16"
         for c in {cell.counts: None for cell in cells}
     )

@@ -8,7 +8,8 @@ from report import table, with_error
 
 from speed.large import Size, exponents
 from speed.report import ns, size
-from speed.single import BARE, PEAKS, Single, Start
+from speed.single import BARE, PEAKS, Single
+from speed.start import Start
 
 
 def single(found: Single) -> str:
@@ -16,12 +17,13 @@ def single(found: Single) -> str:
     base = found.seconds[BARE]
     rows = [[name, ns(seconds), with_error(ratio(seconds, base))] for name, seconds in found.seconds.items()]
     stiff = [
-        with_error(ratio(found.seconds[scenes.BIPENALTY + k], found.seconds[scenes.STIFFNESS + k])) for k in ("", PEAKS)
+        with_error(ratio(found.seconds[scenes.BIPENALTY + kind], found.seconds[scenes.STIFFNESS + kind]))
+        for kind in ("", PEAKS)
     ]
     return (
         f"## One run\n\n{table(['one lane, one thread', 'ns per node-step', f'over {BARE}'], rows)}\n\n{found.nodes} "
         f"nodes, {found.steps} steps of contact, wall time; a model keeps histories of every step and energies of "
-        f"every tenth. Bipenalty over stiffness: {stiff[0]}{PEAKS.replace(',', ';')} {stiff[1]}."
+        f"every tenth. Bipenalty over stiffness: {stiff[0]}; with peaks only {stiff[1]}."
     )
 
 
@@ -59,8 +61,8 @@ def large(sizes: Sequence[Size]) -> str:
     return (
         f"## One large model\n\n{table(head, rows)}\n\nOne lane, free flight, nothing recorded. A step moves "
         f"{most.read + most.moved:.0f} bytes a node and goes through {most.resident(1):.0f} ({sizes[-1].counts.nodes} "
-        f"nodes). Levels of memory are told apart by the probed bandwidth, which falls by more than a third between "
-        f"them; on a shared machine they need not be as large as the processor's caches. Two threads are beside the "
+        f"nodes). Level 0 is the core's own cache; beyond it the probed bandwidth falls by more than a third from one "
+        f"level to the next, which on a shared machine need not be where the processor's caches end. Two threads are beside the "
         f"bandwidth of one core. Exponent of the growth of a step with the nodes: {growth or 'not measured'}."
     )
 
@@ -73,6 +75,6 @@ def start(found: Start) -> str:
     ]
     head = ["part", "ms", "over the steps"]
     return (
-        f"## The start\n\n{table(head, rows)}\n\n{found.nodes} nodes, {found.steps} steps with contact. Parts are "
-        f"differences: a scene without contact, with it, its model, the first step, a later one."
+        f"## The start\n\n{table(head, rows)}\n\n{found.nodes} nodes, {found.steps} steps with contact, histories "
+        f"of every step, energies of every tenth."
     )

@@ -1,10 +1,9 @@
-"""One run alone: steps in flight and in contact beside the bare kernel, as a model records and as a sweep does."""
+"""One run alone: its steps in flight and in contact beside the bare kernel, as a model records and as a sweep does."""
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
 import timed_scenes as scenes
 from measure import Array, started
 from plan import Plan
@@ -57,62 +56,3 @@ def measured(plan: Plan) -> Single:
         cases[name] = lambda m=method: of_model(together, m)
         cases[name + PEAKS] = lambda m=method: batch_seconds(contact, [m], 1, plan.before, strides)
     return Single(nodes, steps, interleaved(cases, plan.single_rounds, plan.places))
-
-
-@dataclass(frozen=True)
-class Start:
-    """What comes before the first step, by part, and the steps themselves: seconds, (rounds,) each.
-
-    Parameters
-    ----------
-    nodes, steps : of the run.
-    parts : of the start; they add up to `whole`.
-    whole, stepping : the start, and all steps.
-    """
-
-    nodes: int
-    steps: int
-    parts: dict[str, Array]
-    whole: Array
-    stepping: Array
-
-
-#: Parts of the start.
-BODIES, SURFACES, STATE, SEARCH = (
-    "bodies: checks of the mesh, assembly, element frequencies",
-    "contact: surfaces, bodies apart",
-    "initial state and time step",
-    "first search, by how much the first step is longer",
-)
-
-
-def of_start(plan: Plan) -> Start:
-    """Starts a model and runs it; its parts by what smaller parts of a scene take."""
-    scene = scenes.collision(plan.segments)
-    bare = bp.Scene(scene.bodies)
-    rounds = []
-    for _ in range(plan.start_rounds):
-        taken = np.min([_one_start(scene, bare, plan.start_steps) for _ in range(plan.places)], axis=0)
-        bodies, lowering, model, first, rest = taken
-        usual = rest / (plan.start_steps - 1)
-        parts = [bodies, max(0.0, lowering - bodies), max(0.0, model - max(lowering, bodies)), max(0.0, first - usual)]
-        rounds.append([*parts, model + max(0.0, first - usual), rest + usual])
-    columns = np.array(rounds).T
-    parts = dict(zip((BODIES, SURFACES, STATE, SEARCH), columns, strict=False))
-    return Start(scene.n_nodes, plan.start_steps, parts, columns[4], columns[5])
-
-
-def _one_start(scene: bp.Scene, bare: bp.Scene, steps: int) -> list[float]:
-    """Seconds of lowering without and with contact, of a model, of its first step, and of the others."""
-    clocks = [time.perf_counter()]
-    lowered(bare)
-    clocks.append(time.perf_counter())
-    lowered(scene)
-    clocks.append(time.perf_counter())
-    model = bp.Model(scene, METHODS[scenes.BIPENALTY])
-    clocks.append(time.perf_counter())
-    model.step()
-    clocks.append(time.perf_counter())
-    model.run((steps - 0.5) * model.dt, show_progress=False)
-    clocks.append(time.perf_counter())
-    return np.diff(clocks).tolist()
