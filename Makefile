@@ -17,11 +17,12 @@ unexport CONDA_PREFIX PYTHONHOME PYTHONPATH
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help sweep stability test check bench figures setup clean toolchain
+.PHONY: help sweep stability charts test check bench figures setup clean toolchain
 
 help:
 	@echo "make sweep     the colliding-cylinder study: tables and figures into out/"
 	@echo "make stability maps of where each method holds, into out/"
+	@echo "make charts    speed against accuracy on seven scenes, into out/ and docs/charts.md"
 	@echo "make test      all Rust and Python tests"
 	@echo "make check     formatting, lints, types and stubs"
 	@echo "make bench     the measurements behind the performance claims"
@@ -34,6 +35,9 @@ sweep: setup
 
 stability: setup
 	$(RUN) examples/stability.py
+
+charts: setup
+	$(RUN) examples/charts.py
 
 test: setup
 	cargo test --locked
@@ -50,7 +54,7 @@ check: setup
 bench: setup
 	$(RUN) benchmarks/run.py
 
-figures: sweep stability
+figures: sweep stability charts
 	mkdir -p docs/figures
 	cp out/*.png docs/figures/
 

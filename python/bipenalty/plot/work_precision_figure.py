@@ -33,8 +33,15 @@ LOOKS: dict[str, dict[str, Any]] = {
 SOURCE = ("published", "0.5 element")
 SOURCE_LOOK: dict[str, Any] = {"color": "#0072B2", "linewidth": 1.8, "linestyle": (0, (4, 1.5)), "marker": "s", "markersize": 4.5,
                "markerfacecolor": "white", "zorder": 5, "label": "source's set-up (dt = half), best $p_s$"}  # fmt: skip
-FRONT: dict[str, Any] = {"color": "#F6DE9A", "linewidth": 9, "solid_capstyle": "round", "zorder": 1, "label": "best of all runs"}
+FRONT: dict[str, Any] = {
+    "color": "#F6DE9A",
+    "linewidth": 9,
+    "solid_capstyle": "round",
+    "zorder": 1,
+    "label": "best of all runs",
+}
 UNITS = {"seconds": (1e3, "processor time (ms)"), "node_steps": (1.0, "node-steps")}
+UNCERTAIN = "less than the answer's uncertainty"
 #: Accuracies that a gain is shown at, the most accurate that both reach.
 LEVELS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2)
 
@@ -77,7 +84,7 @@ def work_precision(
         ax.set_xlabel(UNITS.get(cost, (1.0, cost))[1])
     for ax in panels.flat[len(errors) :]:
         ax.set_visible(False)
-    handles, words = key(panels.flat[0])
+    handles, words = key(list(panels.flat))
     drawn.legend(handles, words, loc="outside lower center", ncols=4, frameon=False, fontsize=8.5)
     if title:
         drawn.suptitle(title, x=0.01, ha="left")
@@ -117,7 +124,7 @@ def work_precision_overview(
             ax.set_xlabel(UNITS.get(cost, (1.0, cost))[1])
     for ax in panels.flat[len(charts) :]:
         ax.set_axis_off()
-    handles, words = key(panels.flat[0])
+    handles, words = key(list(panels.flat))
     panels.flat[len(charts)].legend(handles, words, loc="center left", frameon=False, fontsize=9, borderaxespad=0)
     if title:
         drawn.suptitle(title, x=0.01, ha="left")
@@ -147,12 +154,13 @@ def panel(ax: Axes, data: xr.Dataset, error: str, cost: str, methods: Sequence[s
     _frame(ax, data, error, cost, (factor * spent[good], wrong[good]), factor)
 
 
-def key(ax: Axes) -> tuple[list[Any], list[str]]:
-    """Handles and words of the legend, in the order that matters."""
-    handles, words = ax.get_legend_handles_labels()
-    order = sorted(range(len(words)), key=lambda i: (words[i] in ("a run", FRONT["label"]), i))
+def key(panels: Sequence[Axes]) -> tuple[list[Any], list[str]]:
+    """Handles and words of the legend, each once, in the order that matters."""
+    found = {word: handle for ax in panels for handle, word in zip(*ax.get_legend_handles_labels(), strict=True)}
+    last = ("a run", FRONT["label"], UNCERTAIN)
+    words = sorted(found, key=lambda word: (word in last, list(found).index(word)))
     crosses = Line2D([], [], linestyle="", marker="x", color="0.35", markersize=5)
-    return [*(handles[i] for i in order), crosses], [*(words[i] for i in order), "failed runs, at what they cost"]
+    return [*(found[word] for word in words), crosses], [*words, "failed runs, at what they cost"]
 
 
 def _band(ax: Axes, front: tuple[Any, Any], factor: float) -> None:
@@ -170,9 +178,8 @@ def _gain(ax: Axes, source: xr.Dataset, ours: xr.Dataset, error: str, cost: str,
             style_of = {"arrowstyle": "-|>", "color": "black", "linewidth": 1.3, "shrinkA": 0, "shrinkB": 0}
             ends = (factor * own, 100 * level), (factor * theirs, 100 * level)
             ax.annotate("", ends[0], ends[1], arrowprops=style_of, zorder=8)
-            middle = factor * (own * theirs) ** 0.5
-            ax.text(middle, 100 * level * 1.08, f"{theirs / own:.1f}× at {100 * level:g} %", fontsize=9, va="bottom",
-                    ha="center", zorder=8, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.8})  # fmt: skip
+            words = f"{theirs / own:.1f}× cheaper at {100 * level:g} %"
+            ax.text(0.97, 0.87, words, transform=ax.transAxes, fontsize=9.5, va="top", ha="right", zorder=8)
             return
 
 
@@ -188,10 +195,12 @@ def _frame(ax: Axes, data: xr.Dataset, error: str, cost: str, runs: tuple[Any, A
     ax.axhspan(high, top, color="0.94", zorder=0, linewidth=0)
     ended = ~np.isin(data["outcome"].values, ("finished", "not run"))
     failed = factor * data[cost].values[ended]
-    ax.plot(failed, np.full(failed.shape, (high * top) ** 0.5), "x", color="0.35", markersize=3.5, zorder=4)
+    ax.plot(failed, np.full(failed.shape, (high * top) ** 0.5), "x", color="0.35", markersize=3.2, alpha=0.5, zorder=4)
     known = data.attrs.get(f"uncertainty_{error}")
     if known is not None and 100 * known > low:
-        ax.axhspan(low, 100 * known, facecolor="0.9", zorder=0, linewidth=0, hatch="////", edgecolor="white")
+        ax.axhspan(
+            low, 100 * known, facecolor="0.9", zorder=0, linewidth=0, hatch="////", edgecolor="white", label=UNCERTAIN
+        )
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())

@@ -154,7 +154,10 @@ def _empty(
     """The dataset before the first run."""
     shape = (len(methods), width, len(meshes), len(dts))
     about = {name: ("1", words) for name, words in errors.MEASURES.items()} | COSTS
-    data: dict[str, Any] = {name: (DIMS, np.full(shape, np.nan), {"units": unit, "long_name": words}) for name, (unit, words) in about.items()}
+    data: dict[str, Any] = {
+        name: (DIMS, np.full(shape, np.nan), {"units": unit, "long_name": words})
+        for name, (unit, words) in about.items()
+    }
     data["outcome"] = (DIMS, np.full(shape, "not run", dtype=object), {"long_name": "how the run ended"})
     data["reason"] = (DIMS, np.full(shape, "", dtype=object), {"long_name": "why"})
     for name, unit, words in (("step", "s", "time step"), ("setup_seconds", "s", "processor time of making the model")):
