@@ -17,11 +17,12 @@ unexport CONDA_PREFIX PYTHONHOME PYTHONPATH
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help sweep stability test check bench peers figures setup clean toolchain
+.PHONY: help sweep stability charts test check bench peers figures setup clean toolchain
 
 help:
 	@echo "make sweep     the colliding-cylinder study: tables and figures into out/"
 	@echo "make stability maps of where each method holds, into out/"
+	@echo "make charts    speed against accuracy on seven scenes, into out/ and docs/charts.md"
 	@echo "make test      all Rust and Python tests"
 	@echo "make check     formatting, lints, types and stubs"
 	@echo "make bench     the measurements behind the performance claims"
@@ -35,6 +36,9 @@ sweep: setup
 
 stability: setup
 	$(RUN) examples/stability.py
+
+charts: setup
+	$(RUN) examples/charts.py
 
 test: setup
 	cargo test --locked
@@ -55,6 +59,7 @@ peers: setup
 	$(RUN) benchmarks/peers/run.py $(PEERS)
 
 figures: sweep stability
+figures: sweep stability charts
 	mkdir -p docs/figures
 	cp out/*.png docs/figures/
 

@@ -12,7 +12,7 @@ A `Scene` says what there is, a `Model` advances it, a `Result` holds what was s
 'finished'
 """
 
-from bipenalty import exact, io, mesh, plot
+from bipenalty import exact, io, mesh, plot, study
 from bipenalty.body import Body
 from bipenalty.constraints import Support
 from bipenalty.contact import Contact
@@ -70,6 +70,7 @@ __all__ = [
     "restitution",
     "restitution_map",
     "plot",
+    "study",
     "sweep",
     "sweep_memory",
 ]

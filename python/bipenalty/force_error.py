@@ -23,6 +23,8 @@ Impulse = Callable[[Floats], Floats]
 
 #: Instants at which averages are compared, per width of the average.
 SAMPLES = 10
+#: A contact is over when this share of its impulse has been given: the last, weak touches of a mesh do not count.
+GIVEN = 0.99
 
 
 def impulse_of(force: Any, dt: float) -> Impulse:
@@ -110,6 +112,20 @@ def closures(force: Any) -> int:
     """
     touching = np.concatenate([[False], np.asarray(force) != 0])
     return int(np.count_nonzero(touching[1:] & ~touching[:-1]))
+
+
+def released(impulse: Impulse, until: float) -> float:
+    """When 99 % of the impulse up to `until` (s) has been given for good, s; NaN if there was none.
+
+    Example
+    -------
+    >>> round(released(lambda t: np.clip(t - 1.0, 0, 1), until=5.0), 2)
+    1.99
+    """
+    t = np.linspace(0, until, 20_000)
+    share = impulse(t)
+    below = np.flatnonzero(share < GIVEN * share[-1])
+    return float(t[below[-1]]) if share[-1] > 0 else float("nan")
 
 
 def of_sweep(sweep: xr.Dataset, reference: Impulse, width: float) -> xr.Dataset:

@@ -10,5 +10,15 @@ from bipenalty.plot.force_figure import force
 from bipenalty.plot.penetration_figure import penetration
 from bipenalty.plot.restitution_figure import restitution, restitution_and_runs
 from bipenalty.plot.stability_figure import stability
+from bipenalty.plot.work_precision_figure import work_precision, work_precision_overview
 
-__all__ = ["deformation", "force", "penetration", "restitution", "restitution_and_runs", "stability"]
+__all__ = [
+    "deformation",
+    "force",
+    "penetration",
+    "restitution",
+    "restitution_and_runs",
+    "stability",
+    "work_precision",
+    "work_precision_overview",
+]
