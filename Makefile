@@ -58,7 +58,6 @@ bench: setup
 peers: setup
 	$(RUN) benchmarks/peers/run.py $(PEERS)
 
-figures: sweep stability
 figures: sweep stability charts
 	mkdir -p docs/figures
 	cp out/*.png docs/figures/
