@@ -24,16 +24,16 @@ pub struct Bandwidth {
 /// Bandwidth of one core over a working set of `bytes`, with the widest instruction set.
 ///
 /// # Errors
-/// Fewer bytes than make three arrays of 16 numbers, or more than 8 GB.
+/// Fewer bytes than make three arrays of 32 numbers, or more than 8 GB.
 pub fn bandwidth(bytes: usize) -> Result<Bandwidth> {
-    let (least, most) = (3 * 8 * LANES, 1 << 33);
+    let (least, most) = (3 * 8 * 2 * LANES, 1 << 33);
     if !(least..=most).contains(&bytes) {
         let bound = format!("in [{least}, {most}] bytes");
         return Err(Error::bound("bandwidth probe", "working set", bytes, &bound, "take the size of a cache"));
     }
     let rounds = MOVED.div_ceil(bytes);
     let filled = |numbers: usize| {
-        let mut array = Aligned::zeros(numbers / LANES * LANES);
+        let mut array = Aligned::zeros(numbers / (2 * LANES) * (2 * LANES));
         array.fill(1.0);
         array
     };
@@ -51,16 +51,18 @@ impl Loop for Read<'_> {
 
     #[inline(always)]
     fn run<M: Madd>(self) {
-        // Two rows of sums: one alone would wait for its own additions.
-        let mut sums = [[0.0; LANES]; 2];
-        for pair in black_box(self.0).as_chunks::<LANES>().0.chunks(2) {
-            for (sum, values) in sums.iter_mut().zip(pair) {
-                for lane in 0..LANES {
-                    sum[lane] += values[lane];
-                }
+        // Several rows of sums: one alone would wait for its own additions.
+        let (mut a, mut b) = ([0.0; LANES], [0.0; LANES]);
+        for [x, y] in black_box(self.0).as_chunks::<LANES>().0.as_chunks::<2>().0 {
+            for lane in 0..LANES {
+                a[lane] += x[lane];
+                b[lane] += y[lane];
             }
         }
-        black_box(sums);
+        for lane in 0..LANES {
+            a[lane] += b[lane];
+        }
+        black_box(a);
     }
 }
 

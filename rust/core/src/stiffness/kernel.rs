@@ -46,8 +46,7 @@ pub fn advance<const L: usize>(
         (1, Isa::Avx2 | Isa::Avx512) if isa.is_here() => {
             return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
         }
-        (8, Isa::Avx512) if isa.is_here() => return wide::advance::<L, 1>(pass, range, velocity, next),
-        (16, Isa::Avx512) if isa.is_here() => return wide::advance::<L, 2>(pass, range, velocity, next),
+        (8 | 16, Isa::Avx2 | Isa::Avx512) if isa.is_here() => return wide::advance(isa, pass, range, velocity, next),
         _ => {}
     }
     dispatch(isa, Advance { pass, range, velocity, next });

@@ -60,14 +60,10 @@ impl<'a, const L: usize> Rows<'a, L> {
         Some((blocks.try_into().ok()?, columns.try_into().ok()?))
     }
 
-    /// One row times u, as many lanes at a time as have their sums in registers.
+    /// One row times u, four lanes at a time: the registers of the baseline hold no more sums.
     #[inline(always)]
     pub(super) fn one<M: Madd>(self, node: usize) -> Force<L> {
-        match 2 * M::WIDTH {
-            lanes if lanes >= L => self.lanes::<M, L>(node),
-            8 => self.lanes::<M, 8>(node),
-            _ => self.lanes::<M, 4>(node),
-        }
+        if L.is_multiple_of(4) { self.lanes::<M, 4>(node) } else { self.lanes::<M, 1>(node) }
     }
 
     #[inline(always)]
@@ -77,14 +73,13 @@ impl<'a, const L: usize> Rows<'a, L> {
         let mut first = 0;
         while first < L {
             let mut sum = [[0.0; C]; 4];
-            // Inner nodes of quads have nine blocks: a known number needs no loop.
-            if let Some((blocks, columns)) = self.nine(node) {
-                for b in 0..9 {
-                    accumulate::<L, C, M>(&mut sum, &blocks[b], self.column(columns[b]), first);
-                }
-            } else {
-                for (block, &column) in blocks.iter().zip(columns) {
-                    accumulate::<L, C, M>(&mut sum, block, self.column(column), first);
+            for (block, &column) in blocks.iter().zip(columns) {
+                let u = self.column(column);
+                for entry in 0..4 {
+                    let u = &u[entry % 2][first..first + C];
+                    for lane in 0..C {
+                        sum[entry][lane] = M::madd(block.0[entry], u[lane], sum[entry][lane]);
+                    }
                 }
             }
             for lane in 0..C {
@@ -94,21 +89,5 @@ impl<'a, const L: usize> Rows<'a, L> {
             first += C;
         }
         force
-    }
-}
-
-/// Adds one block's four products in `C` lanes from `first` on.
-#[inline(always)]
-fn accumulate<const L: usize, const C: usize, M: Madd>(
-    sum: &mut [[f64; C]; 4],
-    block: &Block,
-    u: &[[f64; L]; 2],
-    first: usize,
-) {
-    for entry in 0..4 {
-        let u = &u[entry % 2][first..first + C];
-        for lane in 0..C {
-            sum[entry][lane] = M::madd(block.0[entry], u[lane], sum[entry][lane]);
-        }
     }
 }

@@ -64,8 +64,6 @@ impl Isa {
 
 /// What a loop needs to know of the instruction set it is compiled for.
 pub(crate) trait Madd {
-    /// Numbers in a register.
-    const WIDTH: usize;
     /// `a b + c`, fused where the instruction set has it: without hardware support fusing is a slow library call.
     fn madd(a: f64, b: f64, c: f64) -> f64;
 }
@@ -75,7 +73,6 @@ struct Avx2;
 struct Avx512;
 
 impl Madd for Baseline {
-    const WIDTH: usize = 2;
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a * b + c
@@ -83,7 +80,6 @@ impl Madd for Baseline {
 }
 
 impl Madd for Avx2 {
-    const WIDTH: usize = 4;
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)
@@ -91,7 +87,6 @@ impl Madd for Avx2 {
 }
 
 impl Madd for Avx512 {
-    const WIDTH: usize = 8;
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)
