@@ -90,8 +90,8 @@ def sweep(found: Sweep) -> str:
     return (
         f"## The whole sweep\n\n{table(head, rows)}\n\n{found.runs} runs of {found.steps} steps, {found.nodes} nodes, "
         f"searched from both sides, histories of every step: {found.node_steps:.3g} node-steps, early ends left out. "
-        f"Seconds of the whole call, during which it had {had}. The script does one stable run, searches from one side and takes the faster of "
-        f"its searches."
+        f"Seconds of the whole call, during which it had {had}. The script does one stable run, searches "
+        f"from one side and takes the faster of its searches."
     )
 
 
