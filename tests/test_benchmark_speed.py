@@ -93,10 +93,10 @@ def test_sweep_is_compared_by_the_node_step(load: Any) -> None:
     claims, sweep = load("speed.claims"), load("speed.sweep")
     kernel = {1: 4e-9 * ROUNDS, 8: 2e-9 * ROUNDS, 16: 3e-9 * ROUNDS}
     threads = {1: 3.9 * ROUNDS, 2: 2.0 * ROUNDS}
-    found = claims.of_sweep(sweep.Sweep(10, 100, 1000, 1e9, threads, kernel, 81e-9 * ROUNDS))
+    found = claims.of_sweep(sweep.Sweep(10, 100, 1000, 1e9, threads, {}, kernel, 81e-9 * ROUNDS))
     assert [round(claim.measured.median, 3) for claim in found] == [1.3, 1.95, 40.5, 1.95]
     assert [claim.verdict for claim in found] == ["PASS", "short", "PASS", "PASS"]
-    alone = claims.of_sweep(sweep.Sweep(10, 100, 1000, 1e9, {1: threads[1]}, kernel, 81e-9 * ROUNDS))
+    alone = claims.of_sweep(sweep.Sweep(10, 100, 1000, 1e9, {1: threads[1]}, {}, kernel, 81e-9 * ROUNDS))
     assert len(alone) == 2  # one core: nothing is said of two
 
 

@@ -85,12 +85,13 @@ def sweep(found: Sweep) -> str:
         name = f"sweep, threads: {threads}"
         rows.append([name, f"{spread(seconds).median:.2f}", ns(each), with_error(ratio(one, each))])
     rows.append(["script, one core", "", ns(found.script), with_error(ratio(one, found.script))])
+    had = ", ".join(f"{100 * float(np.median(s)):.0f} % of {n} core{'s' * (n > 1)}" for n, s in found.share.items())
     head = ["", "seconds", "ns per node-step and run", "sweep on one thread over it"]
     return (
         f"## The whole sweep\n\n{table(head, rows)}\n\n{found.runs} runs of {found.steps} steps, {found.nodes} nodes, "
         f"searched from both sides, histories of every step: {found.node_steps:.3g} node-steps, early ends left out. "
-        f"Seconds of the whole call. The script does one stable run, searches from one side and takes the faster of "
-        f"its searches."
+        f"Seconds of the whole call, during which it had {had}. The script does one stable run, searches "
+        f"from one side and takes the faster of its searches."
     )
 
 

@@ -30,6 +30,7 @@ class Sweep:
     runs, steps, nodes : of the sweep; steps of a run that gets to the end.
     node_steps : of all runs; fewer than the product where runs have failed.
     threads : seconds of the whole call by number of threads, (rounds,); 2 only on a machine with two cores.
+    share : of so many cores that they had, -, (rounds,); below 1 other programs took the rest, or threads waited.
     kernel : seconds per node-step and lane of the bare kernel by number of lanes, (rounds,).
     script : seconds per node-step of the script, the faster of its searches, (rounds,).
     """
@@ -39,6 +40,7 @@ class Sweep:
     nodes: int
     node_steps: float
     threads: dict[int, Array]
+    share: dict[int, Array]
     kernel: dict[int, Array]
     script: Array
 
@@ -61,14 +63,16 @@ def measured(plan: Plan) -> Sweep:
     ready = lowered(scene)
     nodes, dt = scene.n_nodes, 0.5 * ready.core.critical_dt
     steps = int(np.ceil(T_END / dt - 1e-9))
-    taken = []
+    taken: list[float] = []
+    shares: dict[int, list[float]] = {n: [] for n in (1, 2) if n <= cores()}
 
     def sweep(threads: int) -> float:
-        clock = time.perf_counter()
+        clock, processor = time.perf_counter(), time.process_time()
         data = bp.sweep(
             scene, runs, T_END, displacement_limit=1.0, histories=True, threads=threads, show_progress=False
         )
         spent = time.perf_counter() - clock
+        shares[threads].append((time.process_time() - processor) / (threads * spent))
         taken.append(float(data["steps"].sum()) * nodes)
         return spent
 
@@ -79,7 +83,7 @@ def measured(plan: Plan) -> Sweep:
         return min(run(search)["seconds"] for search in SEARCHES) / (steps * nodes)
 
     work = 4 * plan.kernel_seconds / ABOUT
-    cases = {f"threads {n}": functools.partial(sweep, n) for n in (1, 2) if n <= cores()}
+    cases = {f"threads {n}": functools.partial(sweep, n) for n in shares}
     for lanes in LANES:
         cases[f"kernel {lanes}"] = lambda k=lanes: min(kernel_seconds(ready.core, nodes, k, work) for _ in range(3))
     found = interleaved(cases | {"script": script}, plan.sweep_rounds)
@@ -88,7 +92,8 @@ def measured(plan: Plan) -> Sweep:
         steps,
         nodes,
         taken[0],
-        {n: found[f"threads {n}"] for n in (1, 2) if n <= cores()},
+        {n: found[f"threads {n}"] for n in shares},
+        {n: np.array(share) for n, share in shares.items()},
         {lanes: found[f"kernel {lanes}"] for lanes in LANES},
         found["script"],
     )
