@@ -116,7 +116,8 @@ impl Stepping {
             self.rows.push(linear.row((model.contacts.len() + i) as u32, u));
         }
         for (pair, candidates) in model.pairs.iter().zip(&self.search.candidates) {
-            pair.rows(candidates, &model.points, u, &mut self.rows);
+            let travelled = travel.far(Some(pair.secondary_body), lane) + travel.far(pair.primary_body, lane);
+            pair.rows(candidates, travelled, &model.points, u, &mut self.rows);
         }
         for row in &mut self.rows {
             let known = Known { row, inverse_mass: &model.inverse_mass, dt: self.dt };

@@ -23,7 +23,7 @@ fn rows_agree_with_fresh_searches(scene: Scene, velocity: [f64; 2], steps: usize
         fresh.keep(&model.pairs, &model.points, u, |_| 0.0).unwrap();
         let mut rows = Vec::new();
         for (pair, candidates) in model.pairs.iter().zip(&fresh.candidates) {
-            pair.rows(candidates, &model.points, u, &mut rows);
+            pair.rows(candidates, 0.0, &model.points, u, &mut rows);
         }
         let describe = |rows: &[bipenalty::row::Row]| -> Seen {
             rows.iter().map(|row| (row.entries().collect(), row.gap)).collect()

@@ -5,7 +5,7 @@ use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhNode};
 
 use super::gap::project;
-use super::pair::{SurfaceNode, faces};
+use super::pair::{ON_SURFACE, SurfaceNode, faces};
 use super::posed::Posed;
 
 /// Secondary nodes that may come into contact before the next search, each with the segments it may meet.
@@ -15,6 +15,10 @@ pub struct Candidates {
     nodes: Vec<u32>,
     start: Vec<u32>,
     segments: Vec<u32>,
+    /// How far (m) surfaces must travel before the node can be inside, by candidate.
+    clear: Vec<f64>,
+    /// Depth (m) of each secondary node at the last search, 0 outside; empty before the first one.
+    depth: Vec<f64>,
 }
 
 impl Candidates {
@@ -24,21 +28,41 @@ impl Candidates {
         self.nodes.iter().enumerate().map(move |(i, &node)| (node, segments(i)))
     }
 
+    /// Those of them that may be inside after surfaces have travelled so far (m) since the search.
+    pub fn within(&self, travel: f64) -> impl Iterator<Item = (u32, &[u32])> {
+        // What is not a number passes nobody over.
+        self.iter().zip(&self.clear).filter(move |(_, clear)| !(**clear > travel)).map(|(candidate, _)| candidate)
+    }
+
     /// Room for every node with a few segments.
     pub(super) fn with_room(nodes: usize) -> Self {
         let (start, segments) = (Vec::with_capacity(nodes + 1), Vec::with_capacity(8 * nodes));
-        Self { nodes: Vec::with_capacity(nodes), start, segments }
+        let (nodes, clear, depth) = (Vec::with_capacity(nodes), Vec::with_capacity(nodes), Vec::with_capacity(nodes));
+        Self { nodes, start, segments, clear, depth }
+    }
+
+    /// Deepest (m) that a secondary node can be after this much travel (m) since the last search.
+    fn deepest(&self, index: u32, travel: f64) -> f64 {
+        self.depth.get(index as usize).map_or(f64::INFINITY, |depth| depth + travel)
+    }
+
+    /// Notes the depth (m) of a secondary node.
+    fn note(&mut self, index: u32, count: usize, depth: f64) {
+        self.depth.resize(count, 0.0);
+        self.depth[index as usize] = depth;
     }
 
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
         self.segments.clear();
+        self.clear.clear();
         self.start.clear();
         self.start.push(0);
     }
 
-    pub(super) fn push(&mut self, node: u32) {
+    pub(super) fn push(&mut self, node: u32, clear: f64) {
         self.nodes.push(node);
+        self.clear.push(clear);
         self.start.push(self.segments.len() as u32);
     }
 }
@@ -48,6 +72,13 @@ pub(super) struct Near<'a> {
     pub posed: Posed<'a>,
     pub tree: &'a Bvh,
     pub skin: f64,
+    /// How far (m) surfaces have travelled since the search before; infinite at the first, and for an open surface, which
+    /// can be entered round its ends.
+    pub travel: f64,
+    /// The surface is closed.
+    pub closed: bool,
+    /// Number of secondary nodes.
+    pub count: usize,
 }
 
 impl Near<'_> {
@@ -59,23 +90,33 @@ impl Near<'_> {
         near: &mut Vec<u32>,
         candidates: &mut Candidates,
     ) {
-        let p = self.posed.node(secondary.node);
-        self.around(p, self.posed.surface.reach(), near);
+        let (p, surface) = (self.posed.node(secondary.node), self.posed.surface);
+        // As deep as it can be by now, or as far outside as it may be to matter.
+        let deepest = candidates.deepest(index, self.travel).min(surface.reach());
+        let mut radius = deepest.max(self.skin) + 2.0 * self.skin;
+        self.around(p, radius, near);
+        candidates.note(index, self.count, 0.0);
         let Some(nearest) = self.posed.nearest(p, near.iter().copied()) else { return };
         let (gap, distance) = (self.posed.signed_gap(p, nearest), nearest.1.distance2.sqrt());
         // An outside node farther than the skin cannot arrive; past the end of an open surface the side is unknown.
-        if gap.is_none_or(|g| g.gap >= 0.0) && distance > self.skin {
+        let outside = gap.is_none_or(|g| g.gap >= 0.0);
+        if (outside && distance > self.skin) || distance > radius {
             return;
         }
         let faces = faces(&self.posed, secondary);
-        let mut facing = self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
-        if facing.is_none() && self.posed.surface.is_closed() {
+        let facing = |near: &[u32]| self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
+        let mut found = facing(near).map(|(_, f)| f.distance2.sqrt()).filter(|d| *d <= radius);
+        if found.is_none() && self.closed {
             // Past the middle of the body: the side it came from is farther away than that.
-            self.around(p, self.posed.surface.size, near);
-            facing = self.posed.nearest(p, near.iter().copied().filter(|s| faces(*s)));
+            radius = surface.size + self.skin;
+            self.around(p, radius, near);
+            found = facing(near).map(|(_, f)| f.distance2.sqrt());
         }
         let reach = distance + 2.0 * self.skin;
-        let reach_facing = facing.map_or(0.0, |(_, f)| f.distance2.sqrt() + 2.0 * self.skin);
+        let reach_facing = found.map_or(0.0, |d| d + 2.0 * self.skin);
+        if reach.max(reach_facing) > radius {
+            self.around(p, reach.max(reach_facing), near);
+        }
         for &segment in near.iter() {
             let [a, b] = self.posed.ends(segment);
             let distance = project(p, a, b).distance2.sqrt();
@@ -83,12 +124,14 @@ impl Near<'_> {
                 candidates.segments.push(segment);
             }
         }
-        candidates.push(index);
+        candidates.note(index, self.count, if outside { 0.0 } else { distance });
+        // On the surface by round-off counts as inside when the side is decided.
+        let clear = if gap.is_some_and(|g| g.gap >= 0.0) { distance - 2.0 * ON_SURFACE * surface.size } else { 0.0 };
+        candidates.push(index, clear);
     }
 
-    /// Segments whose box is within reach of a point, and a skin more.
+    /// Segments whose box is within reach of a point.
     fn around(&self, p: [f64; 2], reach: f64, near: &mut Vec<u32>) {
-        let reach = reach + self.skin;
         let (low, high) = (Vector::new(p[0] - reach, p[1] - reach), Vector::new(p[0] + reach, p[1] + reach));
         let around = BvhNode::leaf(Aabb::new(low, high), 0);
         near.clear();

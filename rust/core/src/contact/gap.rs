@@ -55,7 +55,7 @@ pub fn long_normal(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 #[inline]
 pub fn unit_normal(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     let n = long_normal(a, b);
-    let length = n[0].hypot(n[1]);
+    let length = dot(n, n).sqrt();
     [n[0] / length, n[1] / length]
 }
 
@@ -96,13 +96,13 @@ pub fn gap_at_vertex(p: [f64; 2], vertex: [f64; 2], end: usize, n1: [f64; 2], n2
     let d = from_to(vertex, p);
     let (s1, s2) = (dot(d, n1), dot(d, n2));
     let side = if s1.abs() >= s2.abs() { s1 } else { s2 };
-    let distance = d[0].hypot(d[1]);
+    let distance = dot(d, d).sqrt();
     let gap = distance.copysign(side);
     let normal = if distance > 1e-12 * length {
         [d[0] / gap, d[1] / gap]
     } else {
         let sum = [n1[0] + n2[0], n1[1] + n2[1]];
-        let norm = sum[0].hypot(sum[1]);
+        let norm = dot(sum, sum).sqrt();
         if norm > 0.0 { [sum[0] / norm, sum[1] / norm] } else { n1 }
     };
     let mut weights = [0.0; 2];

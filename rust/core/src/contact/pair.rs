@@ -56,11 +56,18 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Rows of the candidates that penetrate: gap below zero.
-    pub fn rows(&self, candidates: &Candidates, points: &[[f64; 2]], displacement: Lane, rows: &mut Vec<Row>) {
+    /// Rows of the candidates that penetrate: gap below zero. Surfaces have travelled so far (m) since the search.
+    pub fn rows(
+        &self,
+        candidates: &Candidates,
+        travel: f64,
+        points: &[[f64; 2]],
+        displacement: Lane,
+        rows: &mut Vec<Row>,
+    ) {
         match &self.primary {
             Primary::HalfPlane { point, normal } => {
-                for (index, _) in candidates.iter() {
+                for (index, _) in candidates.within(travel) {
                     let node = self.secondary[index as usize].node;
                     let gap = dot(from_to(*point, position(node, points, displacement)), *normal);
                     if gap < 0.0 {
@@ -70,7 +77,7 @@ impl Pair {
             }
             Primary::Surface(surface) => {
                 let posed = Posed { surface, points, displacement };
-                for (index, segments) in candidates.iter() {
+                for (index, segments) in candidates.within(travel) {
                     let secondary = &self.secondary[index as usize];
                     if let Some((segment, gap)) = penetration(&posed, secondary, segments) {
                         rows.push(self.row(surface, secondary.node, segment, gap));
@@ -102,7 +109,7 @@ impl Pair {
 
 /// Outside by less than this share of the primary's extent counts as on the surface when the side is decided: a node
 /// that slides along a flank must not come and go with round-off.
-const ON_SURFACE: f64 = 1e-9;
+pub(super) const ON_SURFACE: f64 = 1e-9;
 
 /// Facing is less than this scalar product of a segment's unit normal and the sum of the node's two: flanks at a right
 /// angle must not come and go with round-off.

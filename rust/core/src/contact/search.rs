@@ -16,6 +16,9 @@ use crate::outcome::Kind;
 /// Skin over mean segment length: half a segment of travel between searches.
 const SKIN: f64 = 0.5;
 
+/// Round-off of a gap over the skin.
+const ROUND_OFF: f64 = 1e-6;
+
 /// Search state of one lane: candidates of every pair.
 #[derive(Default)]
 pub struct Search {
@@ -55,28 +58,31 @@ impl Search {
         displacement: Lane,
         far: impl Fn(Option<u32>) -> f64,
     ) -> Result<bool> {
-        if pairs.is_empty() || (self.count > 0 && !used_up(pairs, far)?) {
+        if pairs.is_empty() || (self.count > 0 && !used_up(pairs, &far)?) {
             return Ok(false);
         }
         for pair in pairs {
             check_finite(pair, displacement)?;
         }
         for (i, pair) in pairs.iter().enumerate() {
-            self.search(i, pair, points, displacement);
+            let since = far(Some(pair.secondary_body)) + far(pair.primary_body);
+            let travel = if self.count == 0 { f64::INFINITY } else { since };
+            self.search(i, pair, points, displacement, travel);
         }
         self.count += 1;
         Ok(true)
     }
 
-    fn search(&mut self, index: usize, pair: &Pair, points: &[[f64; 2]], displacement: Lane) {
+    fn search(&mut self, index: usize, pair: &Pair, points: &[[f64; 2]], displacement: Lane, travel: f64) {
         let candidates = &mut self.candidates[index];
         candidates.clear();
         match &pair.primary {
             Primary::HalfPlane { point, normal } => {
                 let reach = skin(pair);
                 for (index, s) in pair.secondary.iter().enumerate() {
-                    if dot(from_to(*point, position(s.node, points, displacement)), *normal) <= reach {
-                        candidates.push(index as u32);
+                    let gap = dot(from_to(*point, position(s.node, points, displacement)), *normal);
+                    if gap <= reach {
+                        candidates.push(index as u32, gap - ROUND_OFF * reach);
                     }
                 }
             }
@@ -92,7 +98,9 @@ impl Search {
                     boxes.for_each(|(i, aabb)| _ = tree.insert_or_update_partially(aabb, i as u32, 0.0));
                     tree.refit(&mut self.workspace);
                 }
-                let near = Near { posed, tree, skin: skin(pair) };
+                let closed = surface.is_closed();
+                let travel = if closed { travel } else { f64::INFINITY };
+                let near = Near { posed, tree, skin: skin(pair), travel, closed, count: pair.secondary.len() };
                 for (index, secondary) in pair.secondary.iter().enumerate() {
                     near.collect(index as u32, secondary, &mut self.near, candidates);
                 }
@@ -110,7 +118,7 @@ fn skin(pair: &Pair) -> f64 {
 }
 
 /// True when the two surfaces of a pair may have come closer by more than its skin.
-fn used_up(pairs: &[Pair], far: impl Fn(Option<u32>) -> f64) -> Result<bool> {
+fn used_up(pairs: &[Pair], far: &impl Fn(Option<u32>) -> f64) -> Result<bool> {
     let mut used_up = false;
     for pair in pairs {
         let (travel, skin) = (far(Some(pair.secondary_body)) + far(pair.primary_body), skin(pair));
