@@ -17,7 +17,7 @@ unexport CONDA_PREFIX PYTHONHOME PYTHONPATH
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help sweep stability charts test check bench figures setup clean toolchain
+.PHONY: help sweep stability charts test check bench peers figures setup clean toolchain
 
 help:
 	@echo "make sweep     the colliding-cylinder study: tables and figures into out/"
@@ -26,6 +26,7 @@ help:
 	@echo "make test      all Rust and Python tests"
 	@echo "make check     formatting, lints, types and stubs"
 	@echo "make bench     the measurements behind the performance claims"
+	@echo "make peers     the same collision in other programs, into docs/peers.md; options in PEERS=..."
 	@echo "make figures   the figures of the README, into docs/figures/"
 	@echo "make setup     only .venv and the extension, as the others do first"
 	@echo "make clean     remove everything that was built, installed or written"
@@ -53,6 +54,9 @@ check: setup
 
 bench: setup
 	$(RUN) benchmarks/run.py
+
+peers: setup
+	$(RUN) benchmarks/peers/run.py $(PEERS)
 
 figures: sweep stability charts
 	mkdir -p docs/figures

@@ -1,5 +1,6 @@
 """What is expected of the measurements, each beside what was measured."""
 
+import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -18,6 +19,7 @@ class Claim:
     measured : the ratio, -.
     least, most : the bound, -; one of them.
     over : the measured ratio is itself no less than what is claimed, so that beyond the bound it shows nothing.
+    ceiling : -; a ratio beyond it cannot be, so that what it was compared with is wrong.
     """
 
     text: str
@@ -25,10 +27,13 @@ class Claim:
     least: float | None = None
     most: float | None = None
     over: bool = False
+    ceiling: float = math.inf
 
     @property
     def met(self) -> bool:
         """Whether the median is within its bound."""
+        if self.measured.median > self.ceiling:
+            return False
         low = self.least is None or self.measured.median >= self.least
         return low and (self.most is None or self.measured.median <= self.most)
 
@@ -37,6 +42,8 @@ class Claim:
         """One or two words for the table."""
         if self.met:
             return "PASS"
+        if self.measured.median > self.ceiling:
+            return "no ceiling"
         return "not shown" if self.over else "short"
 
     @property
@@ -46,7 +53,8 @@ class Claim:
 
     def as_dict(self) -> dict[str, Any]:
         """For the JSON file."""
-        return asdict(self) | {"met": self.met, "verdict": self.verdict}
+        values = {name: value for name, value in asdict(self).items() if name != "ceiling" or math.isfinite(value)}
+        return values | {"met": self.met, "verdict": self.verdict}
 
 
 def of_speed(duels: list[Duel]) -> list[Claim]:

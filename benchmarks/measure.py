@@ -7,42 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from plan import Plan
 from timed_scenes import Case
 
 import bipenalty as bp
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Plan:
-    """How much is measured.
-
-    Parameters
-    ----------
-    segments : edges on the rim of each cylinder.
-    rounds : of the single steps.
-    places : models of each case in a round, of which the fastest counts: where a model happens to lie in memory
-        alone makes 10 %. They are built anew in each round, in another order.
-    before : steps before the measurement, so that contact is well under way.
-    pieces, steps : a round times so many pieces of so many steps of each model, piece by piece in turn.
-    warm : untimed steps before each piece, which bring the model back into the caches.
-    script_rounds : of the comparison with the script.
-    judged : whether verdicts on the expectations mean anything.
-    """
-
-    segments: int = 116
-    rounds: int = 41
-    places: int = 3
-    before: int = 200
-    pieces: int = 16
-    steps: int = 20
-    warm: int = 3
-    script_rounds: int = 9
-    judged: bool = True
-
-
-QUICK = Plan(24, rounds=3, places=2, before=20, pieces=2, steps=10, warm=1, script_rounds=2, judged=False)
 
 
 @dataclass(frozen=True)
@@ -104,7 +74,7 @@ def _round(cases: Sequence[Case], plan: Plan, number: int) -> tuple[list[float],
     """Seconds per step of each case, and the share of a core that the thread had."""
     order = [i for i in range(len(cases)) for _ in range(plan.places)]
     random.Random(number).shuffle(order)
-    models = [_started(cases[i], plan) for i in order]
+    models = [started(cases[i], plan) for i in order]
     spent, wall = [0.0] * len(models), 0.0
     for turn in _turns(len(models), plan.pieces):
         model, steps = models[turn], plan.steps * cases[order[turn]].steps
@@ -124,7 +94,7 @@ def _turns(count: int, pieces: int) -> Iterator[int]:
         yield from range(count) if piece % 2 == 0 else reversed(range(count))
 
 
-def _started(case: Case, plan: Plan) -> bp.Model:
+def started(case: Case, plan: Plan) -> bp.Model:
     """A new model, `plan.before` steps into its run."""
     model = bp.Model(case.scene, case.method)
     every, energy_every = (1, 10) if case.recorded else (10**9, 10**9)
@@ -137,6 +107,6 @@ def _active_rows(case: Case, plan: Plan) -> float:
     """Mean number of active rows over the window that is timed."""
     if not case.recorded:
         return 0.0
-    model = _started(case, plan)
+    model = started(case, plan)
     model.step(plan.pieces * (plan.steps + plan.warm))
     return float(model.result().dataset["active_rows"].values[plan.before :].mean())

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import timed_scenes as scenes
 from claims import Claim
-from measure import Array, Plan, Spread, Steps, ratio, spread
+from measure import Array, Spread, Steps, ratio, spread
+from plan import Plan
 from versus_script import EQUAL, Duel
 
 #: Rows of the table of single steps, and of the table of what a scene costs.
@@ -55,9 +56,11 @@ def machine(about: dict[str, str], plan: Plan) -> str:
     """What it ran on and how."""
     rows = [[key, value] for key, value in about.items()]
     how = (
-        f"One thread. Discs of {plan.segments} segments. Single steps: {plan.rounds} rounds of {plan.pieces} times "
-        f"{plan.steps} steps after the first {plan.before}, each scene the fastest of {plan.places} models that differ "
-        f"in their place in memory. Against the script: {plan.script_rounds} rounds."
+        f"One thread unless said otherwise. Discs of {plan.segments} segments. Single steps: {plan.rounds} rounds of "
+        f"{plan.pieces} times {plan.steps} steps after the first {plan.before}, each scene the fastest of "
+        f"{plan.places} models that differ in their place in memory. Against the script: {plan.script_rounds} rounds. Bare kernel: "
+        f"{plan.kernel_rounds}; one run: {plan.single_rounds}, its start: {plan.start_rounds}; sweep: "
+        f"{plan.sweep_rounds}; numbers of lanes: {plan.width_rounds}; one large model: {plan.large_rounds}."
     )
     return f"## Machine\n\n{table(['', ''], rows)}\n\n{how}"
 
@@ -142,17 +145,15 @@ def expectations(claims: Sequence[Claim], judged: bool) -> str:
     rows = [[c.text, f"expected {c.expected}", with_error(c.measured), verdict(c)] for c in claims]
     return (
         f"## Expectations\n\n{table(['ratio', '', 'measured', ''], rows)}\n\n"
-        'Where the ratio is an upper bound of what is claimed, one beyond the bound proves nothing: "not shown".'
+        'Where the ratio is an upper bound of what is claimed, one beyond the bound proves nothing: "not shown". '
+        'Where it is a share of what the machine can do, one beyond 1 says that the probe is wrong: "no ceiling".'
     )
 
 
-def whole(
-    about: dict[str, str], plan: Plan, steps: Steps, nodes: int, duels: Sequence[Duel], claims: Sequence[Claim]
-) -> str:
+def whole(about: dict[str, str], plan: Plan, sections: Sequence[str]) -> str:
     """The report."""
     note = (
-        "Each ratio is taken round by round; median of the rounds ± half-width of its 95 % interval (1.57 IQR/sqrt(n), "
-        "McGill, Tukey and Larsen 1978)."
+        "Each ratio is taken round by round; median of the rounds ± half-width of its 95 % interval "
+        "(1.57 IQR/sqrt(n), McGill, Tukey and Larsen 1978)."
     )
-    tables = [single_steps(steps, nodes), against_script(duels), parts(steps, nodes), expectations(claims, plan.judged)]
-    return "\n\n".join(["# Benchmarks", note, machine(about, plan), *tables]) + "\n"
+    return "\n\n".join(["# Benchmarks", note, machine(about, plan), *sections]) + "\n"

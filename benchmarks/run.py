@@ -1,6 +1,6 @@
 """The measurements behind the performance claims: writes out/bench.json and out/bench.md.
 
-python benchmarks/run.py            about a minute
+python benchmarks/run.py            some four minutes on a quiet machine
 python benchmarks/run.py --quick    a coarse mesh and few rounds, to see that it works
 """
 
@@ -18,7 +18,9 @@ import machine
 import numpy as np
 import report
 import timed_scenes as scenes
-from measure import QUICK, Plan, spread, time_steps
+from measure import spread, time_steps
+from plan import QUICK, Plan
+from speed import everything
 from versus_script import duels
 
 
@@ -31,7 +33,7 @@ def plain(value: Any) -> Any:
     {'a': [1.0, None]}
     """
     if isinstance(value, dict):
-        return {key: plain(item) for key, item in value.items()}
+        return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [plain(item) for item in value]
     if isinstance(value, np.ndarray):
@@ -48,7 +50,9 @@ def measurements(plan: Plan) -> tuple[dict[str, Any], str]:
     steps = time_steps(cases, plan)
     say(f"package and script, {plan.script_rounds} rounds")
     against = duels(plan)
-    found = [*claims.of_speed(against), *claims.of_contact(steps), *claims.of_absence(steps)]
+    speed = everything.measured(plan, say)
+    found = [*speed.claims, *claims.of_speed(against), *claims.of_contact(steps), *claims.of_absence(steps)]
+    about |= {"load average at the end": machine.load()}
     data = {
         "machine": about,
         "plan": asdict(plan),
@@ -58,9 +62,17 @@ def measurements(plan: Plan) -> tuple[dict[str, Any], str]:
         "active_rows": steps.rows,
         "share_of_a_core": steps.share,
         "against_script": [asdict(duel) for duel in against],
+        "speed": speed.data,
         "expectations": [claim.as_dict() for claim in found],
     }
-    return plain(data), report.whole(about, plan, steps, nodes, against, found)
+    tables = [
+        *speed.tables,
+        report.single_steps(steps, nodes),
+        report.against_script(against),
+        report.parts(steps, nodes),
+        report.expectations(found, plan.judged),
+    ]
+    return plain(data), report.whole(about, plan, tables)
 
 
 def say(text: str) -> None:

@@ -61,9 +61,9 @@ def cylinders(segments: int, gap: float = 0.0, body_force: tuple[float, float] =
     ]
 
 
-def collision(segments: int, gap: float = 0.0) -> bp.Scene:
+def collision(segments: int, gap: float = 0.0, passes: int = 1) -> bp.Scene:
     """The cylinders as a contact pair; they touch at the start unless there is a gap (m)."""
-    return bp.Scene(cylinders(segments, gap), contacts=[bp.Contact("top", "bottom")])
+    return bp.Scene(cylinders(segments, gap), contacts=[bp.Contact("top", "bottom", passes)])
 
 
 def cases(segments: int) -> list[Case]:

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 import scipy_script
-from measure import Array, Plan
+from measure import Array
+from plan import Plan
 from timed_scenes import DENSITY, FAR, POISSON, YOUNG, collision
 
 import bipenalty as bp

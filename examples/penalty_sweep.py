@@ -134,7 +134,7 @@ def main() -> None:
     if not chosen.quick:
         check_setup(model)
     run = model.run(T_END, snapshots=np.linspace(0, T_END, 6))
-    sweep = bp.sweep(scene, methods, T_END, displacement_limit=1.0)
+    sweep = bp.sweep(scene, methods, T_END, displacement_limit=1.0, histories=True)
 
     full = not chosen.quick and not sweep.attrs["interrupted"]
     out = chosen.out

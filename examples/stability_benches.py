@@ -17,7 +17,8 @@ PHASES = 5  # phases of entry of the bar: where within a step contact begins
 
 def runs(scene: bp.Scene, methods: Sequence[Method], t_end: float, dt: float, limit: float | None = None) -> xr.Dataset:
     """A sweep at a time step that may be past the limit; Ctrl-C ends the study."""
-    sweep = bp.sweep(scene, methods, t_end, dt=dt, allow_unstable=True, displacement_limit=limit, show_progress=False)
+    options = {"allow_unstable": True, "displacement_limit": limit, "histories": True, "show_progress": False}
+    sweep = bp.sweep(scene, methods, t_end, dt=dt, **options)
     if sweep.attrs["interrupted"]:
         raise SystemExit("interrupted: nothing was written")
     return sweep

@@ -33,6 +33,13 @@ def leaves(tree: Any) -> list[Any]:
     return [tree]
 
 
+def measured_only(tree: Any, counted: set[str]) -> Any:
+    """Nested dicts and lists without the entries whose names are `counted`."""
+    if isinstance(tree, dict):
+        return {name: measured_only(item, counted) for name, item in tree.items() if name not in counted}
+    return [measured_only(item, counted) for item in tree] if isinstance(tree, list) else tree
+
+
 def test_quick_run_writes_finite_numbers_and_a_report(load: Any, tmp_path: Path, capsys: Any) -> None:
     load("run").main(["--quick", "--out", str(tmp_path)])
     data = json.loads((tmp_path / "bench.json").read_text(encoding="utf-8"))
@@ -44,19 +51,33 @@ def test_quick_run_writes_finite_numbers_and_a_report(load: Any, tmp_path: Path,
     collision, free = data["against_script"]
     assert 0 <= max(collision["difference"].values()) < 1e-9
     assert set(free["difference"].values()) == {None}  # no contact, nothing to compare
+    speed = data["speed"]
+    counted = {"runs", "steps", "nodes", "node_steps", "blocks", "lanes", "level", "name"}
+    assert all(0 < seconds < 60 for seconds in leaves(measured_only(speed, counted)))
+    assert speed["sweep"]["runs"] == 16
+    assert 0 < speed["sweep"]["node_steps"] <= 16 * speed["sweep"]["steps"] * speed["sweep"]["nodes"]
     bounds = [claim.pop(bound) for claim in data["expectations"] for bound in ("least", "most")]
     assert bounds.count(None) == len(data["expectations"])  # one bound each
     assert None not in leaves(data["expectations"])
-    for part in ("Machine", "ns per node-step", "SciPy script", "Cost follows the scene", "Expectations"):
+    titles = ("Machine", "ns per node-step", "SciPy script", "Cost follows the scene", "Expectations")
+    for part in (
+        *titles,
+        "Kernel and machine",
+        "whole sweep",
+        "Number of lanes",
+        "One run",
+        "large model",
+        "The start",
+    ):
         assert part in text
     assert "nan" not in text
     assert "NOT COMPARABLE" not in text
 
 
 def test_scenes_hold_what_their_names_say(load: Any) -> None:
-    scenes, measure = load("timed_scenes"), load("measure")
+    scenes, measure, plan = load("timed_scenes"), load("measure"), load("plan")
     cases = {case.name: case for case in scenes.cases(24)}
-    rows = {name: measure._active_rows(case, measure.QUICK) for name, case in cases.items()}
+    rows = {name: measure._active_rows(case, plan.QUICK) for name, case in cases.items()}
     touching = {scenes.STIFFNESS, scenes.STIFFNESS_DAMPED, scenes.BIPENALTY, scenes.BIPENALTY_DAMPED, scenes.WALL}
     assert {name for name, active in rows.items() if active > 0} == touching
     assert {name for name, case in cases.items() if case.scene.contacts} == touching | {scenes.APART, scenes.WALL_FAR}
@@ -66,10 +87,10 @@ def test_scenes_hold_what_their_names_say(load: Any) -> None:
 
 
 def test_what_is_recorded_stays_set_while_it_is_timed(load: Any) -> None:
-    scenes, measure = load("timed_scenes"), load("measure")
+    scenes, measure, plan = load("timed_scenes"), load("measure"), load("plan")
     lengths = {}
     for case in scenes.cases(24):
-        model = measure._started(case, measure.QUICK)
+        model = measure.started(case, plan.QUICK)
         model.step(20)
         data = model.result().dataset
         lengths[case.name] = data.sizes["time"], data.sizes["energy_time"]

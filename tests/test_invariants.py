@@ -206,7 +206,7 @@ def test_run_in_a_sweep_is_the_run_alone() -> None:
         bp.Bipenalty(1.0, R=1e5, rule="published"),
     ]
     t_end = 0.1
-    together = bp.sweep(scene, methods, t_end, threads=2)
+    together = bp.sweep(scene, methods, t_end, threads=2, histories=True)
     for i, method in enumerate(methods):
         alone = bp.Model(scene, method).run(t_end)
         there = together.isel(run=i)
@@ -215,15 +215,15 @@ def test_run_in_a_sweep_is_the_run_alone() -> None:
         for name in ("max_penetration", "max_displacement", "peak_force", "impulse", "energy_ratio", "steps"):
             assert there[name].item() == alone.dataset.attrs[name], name
         assert (there.method.item(), there.outcome.item()) == (alone.method, alone.outcome)
-    one = bp.sweep(scene, methods[1:2], t_end, threads=1)
+    one = bp.sweep(scene, methods[1:2], t_end, threads=1, histories=True)
     np.testing.assert_array_equal(one.contact_force[0], together.contact_force[1])
 
 
 def test_sweep_without_histories() -> None:
     """The summary is the same, and no history is there."""
     scene = scenes.small_cylinders()
-    full = bp.sweep(scene, METHODS, 0.1)
-    peaks = bp.sweep(scene, METHODS, 0.1, histories=False)
+    full = bp.sweep(scene, METHODS, 0.1, histories=True)
+    peaks = bp.sweep(scene, METHODS, 0.1)
     assert "contact_force" not in peaks
     assert "time" not in peaks.dims
     for name in ("max_penetration", "max_displacement", "peak_force", "impulse", "energy_ratio"):

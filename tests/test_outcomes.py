@@ -581,7 +581,7 @@ def test_state_at_failure_is_sampled(energy_every: int) -> None:
 def test_sweep_keeps_going_past_a_failure() -> None:
     """failed: stopped before t_end; an energy that was made on the way to the end is an outcome, not a failure."""
     methods = [PARAMETER_FREE, bp.Stiffness(100.0), bp.Bipenalty(1e3, rule="published")]
-    data = bp.sweep(scenes.cylinders(), methods, 0.18)
+    data = bp.sweep(scenes.cylinders(), methods, 0.18, histories=True)
     assert data.outcome.values.tolist() == ["finished", "spectral instability", "energy made by contact"]
     assert data.failed.values.tolist() == [False, True, False]
     assert data.finished.values.tolist() == [True, False, True]

@@ -54,7 +54,7 @@ def sweep(name: str, passes: int, dt: Any = "element") -> xr.Dataset:
     """All of ALL at a time step."""
     scene, end, _ = SCENES[name]
     methods = [bp.Bipenalty(ps) for ps in ALL]
-    data = bp.sweep(scene(passes), methods, end, dt=dt, show_progress=False)
+    data = bp.sweep(scene(passes), methods, end, dt=dt, histories=True)
     assert list(data.outcome.values) == ["finished"] * len(ALL)
     return data
 
@@ -64,7 +64,7 @@ def reference(name: str, passes: int, fraction: int) -> xr.Dataset:
     """One run of the parameter-free rule at a fraction of the usual time step."""
     scene, end, _ = SCENES[name]
     dt = sweep(name, passes).attrs["dt"] / fraction
-    return bp.sweep(scene(passes), [bp.Bipenalty()], end, dt=dt, show_progress=False)
+    return bp.sweep(scene(passes), [bp.Bipenalty()], end, dt=dt, histories=True)
 
 
 def averaged(data: xr.Dataset, run: int, at: Floats, width: float = WIDTH) -> Floats:
@@ -111,7 +111,7 @@ def test_reference_is_the_physical_one(name: str, ps: float, within: float) -> N
     Its compliance and its ringing leave a few per cent of the averaged force, and 0.2 % of the impulse.
     """
     scene, end, _ = SCENES[name]
-    soft = bp.sweep(scene(1), [bp.Stiffness(ps)], end, dt=sweep(name, 1).attrs["dt"] / 16, show_progress=False)
+    soft = bp.sweep(scene(1), [bp.Stiffness(ps)], end, dt=sweep(name, 1).attrs["dt"] / 16, histories=True)
     at = np.arange(WIDTH, end - WIDTH, 1e-4)
     assert apart(averaged(soft, 0, at), averaged(reference(name, 1, 16), 0, at)) < within
     assert float(soft.impulse[0]) == pytest.approx(float(reference(name, 1, 16).impulse[0]), rel=2e-3)
@@ -183,7 +183,7 @@ def test_force_error(name: str, passes: int, ps: Any) -> None:
 def test_published_rule_fails_the_same_measures(name: str, passes: int) -> None:
     """R = 0.9 * 4/dt^2 at p_s = 1e3: 2 to 100 times the energy, and forces that are not the real ones."""
     scene, end, _ = SCENES[name]
-    data = bp.sweep(scene(passes), [bp.Bipenalty(1e3, rule="published")], end, show_progress=False)
+    data = bp.sweep(scene(passes), [bp.Bipenalty(1e3, rule="published")], end, histories=True)
     assert str(data.outcome.values[0]) == "energy made by contact"
     assert float(data.energy_made[0]) > 1
     if not data.failed[0]:
@@ -230,7 +230,7 @@ def bar_sweep(courant: float, phase: int) -> tuple[xr.Dataset, Floats]:
     scene = bp.Scene([bar], [bp.Contact("bar", "wall")], obstacles=[wall])
     # beta = alpha_s h/(E A), alpha_s of the section from its two nodes
     methods = [*(bp.Bipenalty(beta * ELEMENTS / scenes.LENGTH / 2) for beta in BETAS), bp.Bipenalty()]
-    data = bp.sweep(scene, methods, 1.5, dt=dt, show_progress=False)
+    data = bp.sweep(scene, methods, 1.5, dt=dt, histories=True)
     start = gap / scenes.SPEED
     touching = (data.time.values >= start) & (data.time.values < start + 2 * scenes.LENGTH / C)
     return data, np.where(touching, scenes.DENSITY * C * scenes.SPEED, 0.0)

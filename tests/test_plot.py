@@ -33,7 +33,7 @@ def sweep() -> xr.Dataset:
         lambda ps: bp.Bipenalty(ps, rule="published"),
         lambda ps: bp.Bipenalty(ps, D=0.001, rule="published"),
     ]
-    return bp.sweep(collision(), [kind(ps) for kind in kinds for ps in PS], 0.1, displacement_limit=1.0)
+    return bp.sweep(collision(), [kind(ps) for kind in kinds for ps in PS], 0.1, displacement_limit=1.0, histories=True)
 
 
 @pytest.fixture(scope="module")

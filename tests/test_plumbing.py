@@ -144,22 +144,21 @@ def test_version_of_the_installed_package_is_that_of_the_workspace() -> None:
     assert f"## [{RUST['version']}]" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
 
 
-def test_readme_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("name", ["README.md", "docs/sweeps.md"])
+def test_code_of_a_page_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """All ```python blocks in their order, in one namespace, as a reader would type them."""
-    readme = ROOT / "README.md"
-    if not readme.exists():
-        pytest.skip("README.md is missing")
+    readme = ROOT / name
     import matplotlib.pyplot as plt
 
     text = readme.read_text(encoding="utf-8")
     blocks = list(re.finditer(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL))
-    assert blocks, "README.md has no ```python block"
+    assert blocks, f"{name} has no ```python block"
     plt.switch_backend("Agg")
     monkeypatch.chdir(tmp_path)
     namespace: dict[str, object] = {"__name__": "readme"}
     try:
         for block in blocks:
-            above = "\n" * text.count("\n", 0, block.start(1))  # so that a traceback gives the README's line
+            above = "\n" * text.count("\n", 0, block.start(1))  # so that a traceback gives the page's line
             exec(compile(above + block[1], str(readme), "exec"), namespace)
     finally:
         plt.close("all")

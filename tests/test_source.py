@@ -73,7 +73,7 @@ def study(request: pytest.FixtureRequest) -> Study:
     """The runs of figure 6.16 with the thesis' limit of 1 m on the displacement."""
     methods: list[Any] = [bp.Stiffness(ps) for ps in PS] + [bp.Bipenalty(ps, rule="published") for ps in PS]
     methods += [bp.Bipenalty(ps, D=D, rule="published") for D in (1e-2, 1e-3, 1e-4) for ps in PS]
-    data = bp.sweep(scenes.cylinders(request.param), methods, T_END, displacement_limit=1.0)
+    data = bp.sweep(scenes.cylinders(request.param), methods, T_END, displacement_limit=1.0, histories=True)
     assert list(dict.fromkeys(data.method.values)) == METHODS
     return Study(data, request.param)
 

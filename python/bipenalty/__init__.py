@@ -20,14 +20,23 @@ from bipenalty.critical_step import CriticalStep
 from bipenalty.errors import BipenaltyError, InputError, RunError
 from bipenalty.materials import LinearElastic
 from bipenalty.mesh import Mesh
-from bipenalty.methods import Bipenalty, ElementStiffness, Method, NodalMassStiffness, Stiffness
+from bipenalty.methods import (
+    Bipenalty,
+    CDLagrange,
+    ElementStiffness,
+    ForwardIncrementLagrange,
+    Method,
+    NodalMassStiffness,
+    PredictorCorrector,
+    Stiffness,
+)
 from bipenalty.model import Model
 from bipenalty.obstacles import HalfPlane, Polyline
 from bipenalty.result import Result
 from bipenalty.result_dataset import package_version
 from bipenalty.row_restitution import restitution, restitution_map
 from bipenalty.scene import Scene
-from bipenalty.sweep import sweep
+from bipenalty.sweeps import grid, sweep, sweep_memory
 
 __version__ = package_version()
 
@@ -35,9 +44,11 @@ __all__ = [
     "BipenaltyError",
     "Bipenalty",
     "Body",
+    "CDLagrange",
     "Contact",
     "CriticalStep",
     "ElementStiffness",
+    "ForwardIncrementLagrange",
     "HalfPlane",
     "InputError",
     "LinearElastic",
@@ -46,12 +57,14 @@ __all__ = [
     "Model",
     "NodalMassStiffness",
     "Polyline",
+    "PredictorCorrector",
     "Result",
     "RunError",
     "Scene",
     "Stiffness",
     "Support",
     "exact",
+    "grid",
     "io",
     "mesh",
     "restitution",
@@ -59,4 +72,5 @@ __all__ = [
     "plot",
     "study",
     "sweep",
+    "sweep_memory",
 ]

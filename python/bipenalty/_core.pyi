@@ -15,11 +15,17 @@ __all__ = [
     "check_method",
     "instruction_set",
     "instruction_sets",
+    "probe_bandwidth",
+    "probe_fma_rate",
+    "probe_kernel",
 ]
 __version__: str
 instruction_set: str
 
 def instruction_sets() -> list[str]: ...
+def probe_fma_rate(isa: str = "auto") -> float: ...
+def probe_bandwidth(bytes: int) -> tuple[float, float]: ...
+def probe_kernel(model: Model, lanes: int, isa: str = "auto", steps: int = 100, first: int = 0) -> float: ...
 def check_mesh(
     points_: NDArray[np.float64], triangles: NDArray[np.int64], quads: NDArray[np.int64], /
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], bool, list[NDArray[np.int64]]]: ...
@@ -38,6 +44,9 @@ class Model:
     @property
     def critical_dt(self) -> float: ...
     def assembled_critical_dt(self) -> float: ...
+    def scaled_critical_dts(
+        self, young: list[float], density: list[float], assembled: bool
+    ) -> tuple[float, float]: ...
     def worst_stiffening(self) -> float: ...
     @property
     def points(self) -> NDArray[np.float64]: ...
@@ -56,6 +65,8 @@ class Run:
         allow_unstable: bool,
         velocity: NDArray[np.float64],
         displacement: NDArray[np.float64],
+        isa: str,
+        threads: int | None,
     ) -> Run: ...
     def configure(
         self, every: int, energy_every: int, snapshots: list[int], displacement_limit: float, steps: int
@@ -83,14 +94,18 @@ class Batch:
     def __new__(
         cls,
         model: Model,
-        runs: list[tuple[Any, float, int]],
-        allow_unstable: bool,
+        runs: list[Any],
         velocity: NDArray[np.float64],
         displacement: NDArray[np.float64],
-        displacement_limit: float | None,
-        every: int,
-        energy_every: int,
+        *,
+        allow_unstable: bool = False,
+        displacement_limit: float | None = None,
+        every: int = 0,
+        energy_every: int = 0,
+        lanes: int = 0,
+        isa: str = "auto",
     ) -> Batch: ...
+    def check(self, index: int) -> None: ...
     def advance(self, threads: int, seconds: float) -> int: ...
     @property
     def finished(self) -> int: ...

@@ -14,7 +14,7 @@ from bipenalty.critical_step import CriticalStep, critical_ps, time_step
 from bipenalty.errors import InputError, RunError
 from bipenalty.lower import lower
 from bipenalty.methods import Bipenalty, Method
-from bipenalty.methods.method import penalty_ratio
+from bipenalty.methods.method import by_penalty, penalty_ratio
 from bipenalty.result import Result
 from bipenalty.result_dataset import run_dataset
 from bipenalty.scene import Scene
@@ -37,6 +37,7 @@ class Model:
     allow_unstable : accept a dt above the mesh's limit.
     isa : instruction set, "auto" or one of `_core.instruction_sets()`: a run is the same to the last bit on every
         machine that has it.
+    threads : threads that share each step; all processors from 50,000 nodes on, else one, unless given.
 
     Raises
     ------
@@ -61,6 +62,7 @@ class Model:
         safety: float | None = None,
         allow_unstable: bool = False,
         isa: str = "auto",
+        threads: int | None = None,
     ) -> None:
         self.scene = scene
         self.method: Method = checks.method("model", "method", Bipenalty() if method is None else method)
@@ -68,7 +70,8 @@ class Model:
         self.critical_dt: float = self._core.critical_dt
         self.dt = time_step(self._core, dt, safety)
         start = (scene.velocity, scene.displacement)
-        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start, isa)
+        crew = None if threads is None else checks.whole("model", "threads", threads, 1)
+        self._run = _core.Run(self._core, self.method, self.dt, allow_unstable, *start, isa, crew)
         self._seconds = 0.0
 
     @property
@@ -87,16 +90,21 @@ class Model:
         return penalty_ratio(self.method, self.dt)
 
     def critical_step(self) -> CriticalStep:
-        """Limits of the time step: elements, assembled matrix, and the rows active in the last step."""
+        """Limits of the time step: elements, assembled matrix, and the rows active in the last step.
+
+        Rows of multipliers cost none: they take degrees of freedom away and add no stiffness. Nor do those of the
+        predictor-corrector, whose own limit does not depend on dt (see its docstring).
+        """
         mesh = self._core.assembled_critical_dt()
         # A ratio that follows the time step keeps omega^2 <= max(omega_0^2, R) at every one: rows cost nothing.
         limit = 4 / self.dt**2
         follows = self.method.mass_rule[0] in ("ratio from step", "critical") and limit >= self.R
-        rows = self._run.active_limits()[0] if self._run.rows and not follows else mesh
+        costly = by_penalty(self.method) and not follows
+        rows = self._run.active_limits()[0] if self._run.rows and costly else mesh
         return CriticalStep(self.critical_dt, mesh, min(mesh, rows), self.dt)
 
     def critical_ps(self, dt: float | None = None) -> float:
-        """Stiffness penalty factor up to which the stiffness method is stable at a time step, -.
+        """Stiffness penalty factor up to which the stiffness method is stable at a time step, -; whatever the model's.
 
         Parameters
         ----------

@@ -102,6 +102,8 @@ def _attributes(model: Model, seen: dict[str, Any]) -> dict[str, Any]:
         "impulse",
         "energy_ratio",
         "energy_made",
+        "row_steps",
+        "block_operations",
         "seconds",
     )
     steps = {"dt": model.dt, "critical_dt": model.critical_dt}

@@ -15,7 +15,10 @@ NO_RULE: Rule = ("none", 0.0)
 
 @runtime_checkable
 class Method(Protocol):
-    """A rule for each penalty; `ps` is NaN where no stiffness penalty factor is given."""
+    """A rule for each penalty; `ps` is NaN where no stiffness penalty factor is given.
+
+    A method that has an `enforcement_rule` too gets its row forces otherwise than by penalties in the equation of motion.
+    """
 
     @property
     def stiffness_rule(self) -> Rule: ...
@@ -55,6 +58,11 @@ def settle(method: Method, *names: str, required: str = "") -> None:
         if name == required or getattr(method, name) is not None:
             object.__setattr__(method, name, checks.number(owner, name, getattr(method, name)))
     _core.check_method(owner, method)
+
+
+def by_penalty(method: Method) -> bool:
+    """True for penalties in the equation of motion: they alone change its frequencies."""
+    return not hasattr(method, "enforcement_rule")
 
 
 def penalty_ratio(method: Method, dt: float) -> float:

@@ -4,7 +4,9 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use crate::crew::{Crew, LARGE};
 use crate::ended::{Ended, Summary};
+use crate::error::Result;
 use crate::group::{Group, WIDTHS};
 use crate::model::Model;
 use crate::run::RunSpec;
@@ -13,8 +15,18 @@ use crate::stiffness::Isa;
 /// Steps between two looks at the clock.
 const STRIDE: u64 = 64;
 
-/// Lanes of a group unless asked for otherwise.
-const USUAL_WIDTH: usize = 16;
+/// Cache a core has to itself (bytes) on machines of today, and bytes a node: of K, and of each lane's state.
+const CACHE: usize = 2 << 20;
+const OF_STIFFNESS: usize = 344;
+const OF_LANE: usize = 48;
+
+/// Lanes of a group unless asked for otherwise: 16, but 8 where those stay in the cache and 16 do not, and where registers
+/// hold no more (docs/kernel.md).
+fn usual_width(isa: Isa, nodes: usize) -> usize {
+    let bytes = |lanes: usize| nodes * (OF_STIFFNESS + lanes * OF_LANE);
+    let between = bytes(16) > CACHE && bytes(8) < CACHE + CACHE / 4;
+    if between || isa != Isa::Avx512 { 8 } else { 16 }
+}
 
 /// Runs that wait, runs that are under way, and what is left of those that have ended.
 pub struct Batch {
@@ -37,10 +49,22 @@ struct Worker {
 impl Batch {
     /// A batch of runs; `width` is the number of lanes, 0 to leave it to the batch.
     pub fn new(model: Arc<Model>, isa: Isa, width: usize, specs: Vec<RunSpec>) -> Self {
-        let width = WIDTHS.into_iter().find(|w| *w >= width).filter(|_| width > 0).unwrap_or(USUAL_WIDTH);
+        let width = WIDTHS
+            .into_iter()
+            .find(|w| *w >= width)
+            .filter(|_| width > 0)
+            .unwrap_or_else(|| usual_width(isa, model.points.len()));
         let ended = specs.iter().map(|_| Mutex::new(None)).collect();
         let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
         Self { model, isa, width, specs, next, finished, ended, workers: Mutex::default() }
+    }
+
+    /// Whether a run can begin.
+    ///
+    /// # Errors
+    /// What is out of its bounds; such a run ends as refused.
+    pub fn check(&self, number: usize) -> Result<()> {
+        self.specs.get(number).map_or(Ok(()), |spec| spec.checked_model(&self.model).map(|_| ()))
     }
 
     /// Works on the runs for about `budget` on `threads` threads; returns the node-steps done.
@@ -66,7 +90,11 @@ impl Batch {
     fn workers(&self, threads: usize) -> Vec<Arc<Mutex<Worker>>> {
         let Ok(mut workers) = self.workers.lock() else { return Vec::new() };
         while workers.len() < threads.min(self.specs.len()) {
-            let group = Group::new(self.model.clone(), self.isa, 1);
+            let mut group = Group::new(self.model.clone(), self.isa, 1);
+            // Fewer large runs than threads: the threads left over share their steps. Without them it goes on alone.
+            let spare = threads / self.specs.len().max(1);
+            group.crew =
+                if self.model.points.len() < LARGE { Crew::default() } else { Crew::new(spare).unwrap_or_default() };
             workers.push(Arc::new(Mutex::new(Worker { group, numbers: Vec::new() })));
         }
         workers.clone()

@@ -1,7 +1,5 @@
 //! Outward boundary loops: the body on the left, the outward normal on the right of travel.
 
-use std::collections::HashMap;
-
 use crate::element::signed_area;
 use crate::error::{Error, Result};
 use crate::material::Material;
@@ -13,11 +11,9 @@ use crate::mesh::Mesh;
 /// An edge that belongs to more than two elements, or a node where the boundary touches itself.
 pub fn boundary_loops(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
     let next = outgoing_edges(mesh)?;
-    let mut starts: Vec<usize> = next.keys().copied().collect();
-    starts.sort_unstable();
     let mut visited = vec![false; mesh.points.len()];
     let mut loops = Vec::new();
-    for start in starts {
+    for start in (0..next.len()).filter(|node| next[*node].is_some()) {
         if visited[start] {
             continue;
         }
@@ -25,7 +21,7 @@ pub fn boundary_loops(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
         while !visited[node] {
             visited[node] = true;
             ring.push(node);
-            node = *next.get(&node).ok_or_else(|| open_boundary(node, "leads nowhere"))?;
+            node = next[node].ok_or_else(|| open_boundary(node, "leads nowhere"))?;
         }
         if node != start {
             return Err(open_boundary(node, "is entered twice"));
@@ -38,34 +34,50 @@ pub fn boundary_loops(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
 /// `K A^2/V` (N/m) of the element behind each boundary edge, loop by loop: bulk modulus K, area A of the edge times the
 /// thickness, volume V of the element (Hallquist, Goudreau and Benson 1985).
 pub fn edge_stiffness(mesh: &Mesh, loops: &[Vec<usize>], material: &Material, thickness: f64) -> Vec<f64> {
-    let mut area_behind = HashMap::new();
+    let mut next = vec![usize::MAX; mesh.points.len()];
+    let edges = || loops.iter().flat_map(|ring| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])));
+    edges().for_each(|(a, b)| next[a] = b);
+    // One edge leaves each boundary node, so its element is known by that node.
+    let mut area_behind = vec![0.0; mesh.points.len()];
     for (_, _, nodes) in mesh.elements() {
-        let points: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.points[n]).collect();
-        let area = signed_area(&points);
-        area_behind.extend((0..nodes.len()).map(|i| ((nodes[i], nodes[(i + 1) % nodes.len()]), area)));
+        for (a, _) in ring_of(nodes).filter(|(a, b)| next[*a] == *b) {
+            area_behind[a] = polygon_area(mesh, nodes);
+        }
     }
-    let edges = loops.iter().flat_map(|ring| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])));
     let stiffness = |(a, b): (usize, usize)| {
         let (p, q) = (mesh.points[a], mesh.points[b]);
         let length2 = (q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2);
-        material.bulk_modulus() * thickness * length2 / area_behind[&(a, b)]
+        material.bulk_modulus() * thickness * length2 / area_behind[a]
     };
-    edges.map(stiffness).collect()
+    edges().map(stiffness).collect()
 }
 
-/// Edges that one element has to itself, as the map from their first to their second node.
-fn outgoing_edges(mesh: &Mesh) -> Result<HashMap<usize, usize>> {
-    let mut count: HashMap<(usize, usize), u32> = HashMap::new();
-    let edges = || mesh.elements().flat_map(|(_, _, n)| (0..n.len()).map(move |i| (n[i], n[(i + 1) % n.len()])));
-    edges().for_each(|(a, b)| *count.entry((a.min(b), a.max(b))).or_default() += 1);
-    if let Some(((a, b), c)) = count.iter().find(|(_, c)| **c > 2) {
-        let what = format!("number of elements on the edge between nodes {a} and {b}");
-        return Err(Error::bound("mesh", &what, c, "<= 2", "remove overlapping elements"));
+fn polygon_area(mesh: &Mesh, nodes: &[usize]) -> f64 {
+    let points: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.points[n]).collect();
+    signed_area(&points)
+}
+
+/// Edges of an element, counter-clockwise.
+fn ring_of(nodes: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    (0..nodes.len()).map(|i| (nodes[i], nodes[(i + 1) % nodes.len()]))
+}
+
+/// By node, the second node of the edge that leaves it and that one element has to itself.
+fn outgoing_edges(mesh: &Mesh) -> Result<Vec<Option<usize>>> {
+    let mut edges: Vec<([usize; 2], usize)> = Vec::with_capacity(4 * (mesh.triangles.len() + mesh.quads.len()));
+    for (_, _, nodes) in mesh.elements() {
+        edges.extend(ring_of(nodes).map(|(a, b)| ([a.min(b), a.max(b)], a)));
     }
-    let mut next = HashMap::new();
-    for (a, b) in edges().filter(|&(a, b)| count[&(a.min(b), a.max(b))] == 1) {
-        if next.insert(a, b).is_some() {
-            return Err(open_boundary(a, "has two edges that leave it: the body touches itself there"));
+    edges.sort_unstable();
+    let mut next = vec![None; mesh.points.len()];
+    for same in edges.chunk_by(|a, b| a.0 == b.0) {
+        let ([low, high], from) = same[0];
+        if same.len() > 2 {
+            let what = format!("number of elements on the edge between nodes {low} and {high}");
+            return Err(Error::bound("mesh", &what, same.len(), "<= 2", "remove overlapping elements"));
+        }
+        if same.len() == 1 && next[from].replace(low + high - from).is_some() {
+            return Err(open_boundary(from, "has two edges that leave it: the body touches itself there"));
         }
     }
     Ok(next)

@@ -25,6 +25,10 @@ pub struct Summary {
     pub energy_ratio: f64,
     /// Most energy that contact had added, over what there was.
     pub energy_made: f64,
+    /// Active rows, summed over the steps.
+    pub row_steps: u64,
+    /// Multiplications of factorisations for row forces, summed over the steps.
+    pub block_operations: u64,
 }
 
 /// A run that is over.
@@ -49,13 +53,25 @@ impl Summary {
             peaks: run.history.peaks,
             energy_ratio: run.history.energy_ratio(reference),
             energy_made: if reference > 0.0 { run.watch.gain() } else { 0.0 },
+            row_steps: lane.row_steps,
+            block_operations: lane.block_operations,
         }
     }
 
     fn unbegun(spec: &RunSpec, conclusion: Outcome) -> Self {
         let stopped = conclusion != Outcome::Running;
-        let (planned, peaks, energy_ratio) = (spec.steps.unwrap_or(0), Peaks::default(), f64::NAN);
-        Self { steps: 0, planned, seconds: 0.0, conclusion, stopped, peaks, energy_ratio, energy_made: 0.0 }
+        Self {
+            steps: 0,
+            planned: spec.steps.unwrap_or(0),
+            seconds: 0.0,
+            conclusion,
+            stopped,
+            peaks: Peaks::default(),
+            energy_ratio: f64::NAN,
+            energy_made: 0.0,
+            row_steps: 0,
+            block_operations: 0,
+        }
     }
 }
 

@@ -60,7 +60,7 @@ pub fn sample<'s>(
 ) -> Energies {
     let (old, new, u) = (lane.before, lane.velocity, lane.displacement);
     let mut e = Energies::default();
-    let (mut kinetic, mut ahead, mut work, mut power, mut largest) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let (mut kinetic, mut ahead, mut work, mut power, mut largest) = (0.0, 0.0, 0.0, 0.0, 0.0_f64);
     let mut loads = [0.0; 3];
     for ((body, p), sums) in model.bodies.iter().zip(momentum).zip(sums) {
         let r = body.density_factor;
@@ -70,7 +70,7 @@ pub fn sample<'s>(
         power += r * sums.power;
         *p = sums.momentum.map(|mv| r * mv);
         // Lets NaN through, unlike f64::max.
-        largest = if sums.largest <= largest { largest } else { sums.largest };
+        largest = if largest.is_nan() || sums.largest <= largest { largest } else { sums.largest };
         loads = [0, 1, 2].map(|k| loads[k] + sums.loads[k]);
     }
     let [loads, free_loads, mut pushed] = loads;

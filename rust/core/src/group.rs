@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::contact::travel::Travel;
+use crate::crew::Crew;
 use crate::energy::After;
 use crate::error::Result;
 use crate::lane::Lane;
@@ -12,7 +14,7 @@ use crate::run::{Due, Run, RunSpec, Seen};
 use crate::shape;
 use crate::state::State;
 use crate::step::{Stepping, step};
-use crate::stiffness::Isa;
+use crate::stiffness::{Aligned, Isa};
 
 /// Widths that a group can have.
 pub const WIDTHS: [usize; 5] = [1, 2, 4, 8, MOST];
@@ -26,6 +28,8 @@ pub struct Group {
     pub model: Arc<Model>,
     /// Instruction set.
     pub isa: Isa,
+    /// Threads that share each step.
+    pub crew: Crew,
     /// Displacements and velocities.
     pub state: State,
     /// What each lane brings to the step.
@@ -33,7 +37,8 @@ pub struct Group {
     /// What is observed of each.
     pub runs: Vec<Run>,
     pace: Pace,
-    before: Vec<f64>,
+    travel: Travel,
+    before: Aligned,
     sums: Vec<NodalSums>,
 }
 
@@ -42,7 +47,19 @@ impl Group {
     pub fn new(model: Arc<Model>, isa: Isa, width: usize) -> Self {
         let (state, pace) = (State::new(model.points.len(), width), Pace::new(model.bodies.len(), width));
         let (lanes, runs) = (Vec::with_capacity(width), Vec::with_capacity(width));
-        Self { model, isa, state, lanes, runs, pace, before: Vec::new(), sums: Vec::new() }
+        let travel = Travel::new(&model.pairs, width);
+        Self {
+            model,
+            isa,
+            crew: Crew::default(),
+            state,
+            lanes,
+            runs,
+            pace,
+            travel,
+            before: Aligned::zeros(0),
+            sums: Vec::new(),
+        }
     }
 
     /// A run alone.
@@ -80,6 +97,7 @@ impl Group {
         let taken = (self.runs.swap_remove(lane), self.lanes.swap_remove(lane));
         if lane != last {
             self.state.copy_lane(last, lane);
+            self.travel.copy_lane(last, lane);
             self.pace.set(lane, &self.lanes[lane].model, self.lanes[lane].dt);
         }
         self.state.clear_lane(last);
@@ -95,6 +113,7 @@ impl Group {
             return;
         }
         self.state = self.state.resized(width);
+        self.travel = self.travel.resized(width);
         self.pace = Pace::new(self.model.bodies.len(), width);
         for (number, lane) in self.lanes.iter().enumerate() {
             self.pace.set(number, &lane.model, lane.dt);
@@ -105,6 +124,11 @@ impl Group {
     ///
     /// A failure ends its run with an outcome; it is not an error of this call.
     pub fn advance(&mut self, steps: u64) -> u64 {
+        let crew = self.crew.clone();
+        crew.work(|| self.take_steps(steps))
+    }
+
+    fn take_steps(&mut self, steps: u64) -> u64 {
         for taken in 0..steps {
             if self.runs.iter().any(Run::is_over) {
                 return taken;
@@ -118,9 +142,20 @@ impl Group {
         let all = self.runs.iter().map(Run::due).fold(Due::default(), Due::or);
         let look = all.look || all.sample;
         if look || all.snapshot {
-            self.before.clone_from(&self.state.velocity);
+            if self.before.len() != self.state.velocity.len() {
+                self.before = Aligned::zeros(self.state.velocity.len());
+            }
+            self.before.copy_from_slice(&self.state.velocity);
         }
-        step(&self.model, self.isa, &mut self.pace, &mut self.state, &mut self.lanes);
+        step(
+            &self.model,
+            self.isa,
+            self.crew.threads(),
+            &mut self.pace,
+            &mut self.travel,
+            &mut self.state,
+            &mut self.lanes,
+        );
         let shapes = self.look(look, all.shapes);
         let width = self.width();
         for (number, (run, lane)) in self.runs.iter_mut().zip(&self.lanes).enumerate() {

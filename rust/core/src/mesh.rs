@@ -56,12 +56,13 @@ impl Mesh {
                 return Err(Error::bound("mesh", &what, format!("{nodes:?}"), "of distinct nodes", remedy));
             }
         }
-        let mut seen: Vec<Vec<usize>> = self.elements().map(|(_, _, n)| sorted(n)).collect();
+        let mut seen: Vec<[usize; 4]> = self.elements().map(|(_, _, n)| sorted(n)).collect();
         seen.sort_unstable();
         match seen.windows(2).find(|pair| pair[0] == pair[1]) {
             None => Ok(()),
             Some(pair) => {
-                let value = format!("{:?}", pair[0]);
+                let nodes: Vec<_> = pair[0].iter().filter(|n| **n != usize::MAX).collect();
+                let value = format!("{nodes:?}");
                 Err(Error::bound("mesh", "element with nodes", value, "listed once", "remove the repeated element"))
             }
         }
@@ -76,8 +77,8 @@ impl Mesh {
     }
 
     fn turn_if_clockwise(&mut self) -> bool {
-        let area = |nodes: &[usize]| signed_area(&nodes.iter().map(|&k| self.points[k]).collect::<Vec<_>>());
-        let clockwise = self.elements().all(|(_, _, nodes)| area(nodes) < 0.0);
+        let clockwise = self.triangles.iter().all(|t| signed_area(&t.map(|k| self.points[k])) < 0.0)
+            && self.quads.iter().all(|q| signed_area(&q.map(|k| self.points[k])) < 0.0);
         if clockwise {
             self.triangles.iter_mut().for_each(|t| t.swap(1, 2));
             self.quads.iter_mut().for_each(|q| q.swap(1, 3));
@@ -120,8 +121,10 @@ impl Mesh {
     }
 }
 
-fn sorted(nodes: &[usize]) -> Vec<usize> {
-    let mut nodes = nodes.to_vec();
-    nodes.sort_unstable();
-    nodes
+/// Nodes of an element in ascending order; a triangle has no fourth.
+fn sorted(nodes: &[usize]) -> [usize; 4] {
+    let mut all = [usize::MAX; 4];
+    all[..nodes.len()].copy_from_slice(nodes);
+    all.sort_unstable();
+    all
 }

@@ -76,7 +76,7 @@ impl Model {
         if scene.bodies.is_empty() {
             return Err(Error::bound("scene", "number of bodies", 0, ">= 1", "add a body"));
         }
-        let mut stiffness = BlockCsr { row_start: vec![0], ..BlockCsr::default() };
+        let mut stiffness = BlockCsr::default();
         for body in scene.bodies {
             model.add_body(body, &mut stiffness)?;
         }
@@ -113,10 +113,7 @@ impl Model {
 
         let first = self.points.len();
         let nodes = first..first + mesh.points.len();
-        let blocks = stiffness.block.len() as u32;
-        stiffness.row_start.extend(parts.stiffness.row_start[1..].iter().map(|s| s + blocks));
-        stiffness.column.extend(parts.stiffness.column.iter().map(|c| c + first as u32));
-        stiffness.block.extend(parts.stiffness.block);
+        stiffness.append(parts.stiffness);
         self.inverse_mass.extend(parts.mass.iter().map(|m| [1.0 / m; 2]));
         if body.body_force != [0.0; 2] || self.load.is_some() {
             // Row-sum lumping shares the body force out as it does the mass.
@@ -199,8 +196,8 @@ impl Model {
     pub fn nodal_force(&self, body: &Body, node: u32, displacement: Lane) -> [f64; 2] {
         let mut ku = [0.0; 2];
         for (column, k) in self.stiffness.row(node as usize) {
-            let u = displacement.at(column as u32);
-            ku = [ku[0] + k[0] * u[0] + k[2] * u[1], ku[1] + k[1] * u[0] + k[3] * u[1]];
+            let force = k.times(displacement.at(column as u32));
+            ku = [ku[0] + force[0], ku[1] + force[1]];
         }
         let f = self.load.as_ref().map_or([0.0; 2], |load| load[node as usize]);
         [f[0] - body.young_factor * ku[0], f[1] - body.young_factor * ku[1]]

@@ -101,7 +101,7 @@ impl<const L: usize> Sums<L> {
     fn add(&mut self, m: f64, before: &[[f64; L]; 2], after: &[[f64; L]; 2], u: &[[f64; L]; 2]) {
         for lane in 0..L {
             let (a, b, x) =
-                ([0, 1].map(|k| before[k][lane]), [0, 1].map(|k| after[k][lane]), [0, 1].map(|k| u[k][lane]));
+                ([before[0][lane], before[1][lane]], [after[0][lane], after[1][lane]], [u[0][lane], u[1][lane]]);
             let v = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             let jump = [b[0] - a[0], b[1] - a[1]];
             self.kinetic[lane] += m * (v[0] * v[0] + v[1] * v[1]);
@@ -111,8 +111,7 @@ impl<const L: usize> Sums<L> {
             self.momentum[0][lane] += m * v[0];
             self.momentum[1][lane] += m * v[1];
             let size = x[0] * x[0] + x[1] * x[1];
-            // Lets NaN through, unlike f64::max.
-            self.largest[lane] = if size <= self.largest[lane] { self.largest[lane] } else { size };
+            self.largest[lane] = if size > self.largest[lane] { size } else { self.largest[lane] };
         }
     }
 
@@ -132,7 +131,8 @@ impl<const L: usize> Sums<L> {
             work: self.work[lane],
             power: self.power[lane],
             momentum: self.momentum.map(|p| p[lane]),
-            largest: self.largest[lane],
+            // A comparison passes over what is not a number; a sum does not.
+            largest: if (self.kinetic[lane] + self.work[lane]).is_nan() { f64::NAN } else { self.largest[lane] },
             loads: self.loads.map(|f| f[lane]),
         }
     }

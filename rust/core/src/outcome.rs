@@ -1,6 +1,7 @@
 //! How a run ended, and the sentence that says why.
 
 use crate::critical_step::rows;
+use crate::enforcement::Enforcement;
 use crate::error::short;
 use crate::model::Model;
 use crate::watch::{TOLERANCE, Watch};
@@ -73,8 +74,10 @@ pub(crate) struct Judge<'a> {
     /// Time (s) and time step (s).
     pub time: f64,
     pub dt: f64,
-    /// Penalty ratio R (1/s^2); infinite without a mass penalty.
+    /// Penalty ratio R (1/s^2); infinite without a mass penalty in the equation of motion.
     pub ratio: f64,
+    /// How rows get their forces.
+    pub enforcement: Enforcement,
 }
 
 impl Judge<'_> {
@@ -96,10 +99,10 @@ impl Judge<'_> {
             let why = format!("omega dt = {} with the contact row{}, above 2;", short(rows), self.place());
             (Kind::SpectralInstability, format!("{why} lower p_s, reduce dt or add a mass penalty"))
         } else if gained {
-            let within = short(if ratio.is_finite() { mesh.max(ratio) } else { rows });
+            let within = short(if ratio.is_finite() { mesh.max(ratio) } else { mesh.max(rows) });
             let made = format!("contact has added {} times the energy there was", short(self.watch.gain()));
             let why = format!("{made} though omega dt = {within} is within 2: rows that open and close make it;");
-            (Kind::EnergyMade, format!("{why} use rule=\"critical\", add damping or lower p_s"))
+            (Kind::EnergyMade, format!("{why} {}", self.enforcement.remedy()))
         } else {
             return Outcome::Failed(kind, format!("{seen} at {time}"));
         };
@@ -113,11 +116,11 @@ impl Judge<'_> {
         if elements <= 2.0 { elements } else { self.model.assembled_omega2().found.sqrt() * self.dt }
     }
 
-    /// omega dt of the active rows where no mass penalty keeps it down, else 0: a single row's own, or, where that is
+    /// omega dt of the active rows where nothing keeps it down, else 0: a single row's own, or, where that is
     /// within 2 and energy has been made, that of the mesh with the stiffest set of rows there has been.
     fn rows(&self, gained: bool) -> f64 {
         let row = self.watch.row_omega2.sqrt() * self.dt;
-        if self.ratio.is_finite() {
+        if self.ratio.is_finite() || self.enforcement != Enforcement::Penalty {
             0.0
         } else if row <= 2.0 && gained {
             rows::largest_omega2(self.model, &self.watch.stiffest).found.sqrt() * self.dt

@@ -1,5 +1,7 @@
 //! The pace of each lane: what its time step makes of the one pass over K.
 
+use std::ops::Range;
+
 use crate::model::Model;
 use crate::state::State;
 use crate::step::Stepping;
@@ -51,33 +53,54 @@ impl Pace {
 }
 
 /// `v += dt M^-1 (f - K u)`, and u + dt v into `other`: what the bodies do without rows.
-pub fn advance_nodes(model: &Model, isa: Isa, pace: &Pace, state: &mut State) {
+///
+/// Threads share the nodes; each node is the work of one of them, so that their number changes no bit.
+pub fn advance_nodes(model: &Model, isa: Isa, threads: usize, pace: &Pace, state: &mut State) {
     match state.lanes {
-        1 => pass::<1>(model, isa, pace, state),
-        2 => pass::<2>(model, isa, pace, state),
-        4 => pass::<4>(model, isa, pace, state),
-        8 => pass::<8>(model, isa, pace, state),
-        lanes => {
-            debug_assert_eq!(lanes, 16);
-            pass::<16>(model, isa, pace, state);
-        }
+        1 => pass::<1>(model, isa, threads, pace, state),
+        2 => pass::<2>(model, isa, threads, pace, state),
+        4 => pass::<4>(model, isa, threads, pace, state),
+        8 => pass::<8>(model, isa, threads, pace, state),
+        _ => pass::<16>(model, isa, threads, pace, state),
     }
 }
 
-fn pass<const L: usize>(model: &Model, isa: Isa, pace: &Pace, state: &mut State) {
+fn pass<const L: usize>(model: &Model, isa: Isa, threads: usize, pace: &Pace, state: &mut State) {
     let lanes = |values: &[f64]| -> [f64; L] { std::array::from_fn(|lane| values[lane]) };
-    let (velocity, next) = (state.velocity.as_chunks_mut::<L>().0, state.other.as_chunks_mut::<L>().0);
-    for (number, body) in model.bodies.iter().enumerate() {
-        let (own, values) = (number * L..(number + 1) * L, 2 * body.nodes.start..2 * body.nodes.end);
+    let displacement = state.displacement.as_chunks::<L>().0;
+    let (mut velocity, mut next) = (state.velocity.as_chunks_mut::<L>().0, state.other.as_chunks_mut::<L>().0);
+    let pieces = model.bodies.iter().enumerate().flat_map(|(number, body)| {
+        let own = number * L..(number + 1) * L;
         let pass = Pass {
             stiffness: &model.stiffness,
             inverse_mass: &model.inverse_mass,
             load: model.load.as_deref(),
-            displacement: state.displacement.as_chunks::<L>().0,
+            displacement,
             dt: lanes(&pace.dt),
             elastic_dt: lanes(&pace.elastic_dt[own.clone()]),
             load_dt: lanes(&pace.load_dt[own]),
         };
-        advance(isa, &pass, body.nodes.clone(), &mut velocity[values.clone()], &mut next[values]);
+        shares(&body.nodes, threads).map(move |nodes| (pass, nodes))
+    });
+    let pieces = pieces.map(|(pass, nodes)| {
+        // The nodes of all bodies follow each other: each piece takes the next stretch.
+        let values = 2 * nodes.len();
+        let own_velocity = velocity.split_off_mut(..values).unwrap_or_default();
+        (pass, nodes, own_velocity, next.split_off_mut(..values).unwrap_or_default())
+    });
+    if threads <= 1 {
+        pieces.for_each(|(pass, nodes, velocity, next)| advance(isa, &pass, nodes, velocity, next));
+    } else {
+        rayon::scope(|scope| {
+            for (pass, nodes, velocity, next) in pieces {
+                scope.spawn(move |_| advance(isa, &pass, nodes, velocity, next));
+            }
+        });
     }
+}
+
+/// A body's nodes in as many stretches as there are threads.
+fn shares(nodes: &Range<usize>, threads: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+    let (first, count) = (nodes.start, nodes.len());
+    (0..threads).map(move |i| first + count * i / threads..first + count * (i + 1) / threads)
 }

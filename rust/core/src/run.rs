@@ -200,7 +200,14 @@ impl Run {
     fn judge<'a>(&'a self, lane: &'a Stepping) -> Judge<'a> {
         let (dt, model) = (lane.dt, &*lane.model);
         let time = self.steps.saturating_sub(1) as f64 * dt;
-        Judge { model, watch: &self.watch, time, dt, ratio: lane.method.mass.ratio(dt) }
+        Judge {
+            model,
+            watch: &self.watch,
+            time,
+            dt,
+            ratio: lane.method.ratio(dt),
+            enforcement: lane.method.enforcement,
+        }
     }
 }
 

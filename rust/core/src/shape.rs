@@ -31,8 +31,12 @@ impl<const L: usize> Loop for Pass<'_, L> {
     fn run<M: Madd>(self) {
         let (u, mut seen) = (by_node::<L>(self.displacement), [false; L]);
         for body in &self.model.bodies {
-            body.triangles.iter().for_each(|t| mark(self.model, t, u, &mut seen));
-            body.quads.iter().for_each(|q| mark(self.model, q, u, &mut seen));
+            for nodes in &body.triangles {
+                mark(self.model, nodes, u, &mut seen);
+            }
+            for nodes in &body.quads {
+                mark(self.model, nodes, u, &mut seen);
+            }
         }
         self.seen[..L].copy_from_slice(&seen);
     }
@@ -41,17 +45,9 @@ impl<const L: usize> Loop for Pass<'_, L> {
 /// Marks the lanes in which the polygon has no area left: triangles from its first corner, summed.
 #[inline(always)]
 fn mark<const L: usize>(model: &Model, nodes: &[u32], u: &[[[f64; L]; 2]], seen: &mut [bool; L]) {
-    let first = nodes[0] as usize;
-    let from_first = |n: u32| -> [[f64; L]; 2] {
-        let n = n as usize;
-        std::array::from_fn(|axis| {
-            let x = model.points[n][axis] - model.points[first][axis];
-            std::array::from_fn(|lane| x + (u[n][axis][lane] - u[first][axis][lane]))
-        })
-    };
-    let (mut doubled, mut a) = ([0.0; L], from_first(nodes[1]));
-    for &n in &nodes[2..] {
-        let b = from_first(n);
+    let (mut doubled, mut a) = ([0.0; L], edge(model, [nodes[0], nodes[1]], u));
+    for &node in &nodes[2..] {
+        let b = edge(model, [nodes[0], node], u);
         for lane in 0..L {
             doubled[lane] += a[0][lane] * b[1][lane] - a[1][lane] * b[0][lane];
         }
@@ -60,6 +56,19 @@ fn mark<const L: usize>(model: &Model, nodes: &[u32], u: &[[[f64; L]; 2]], seen:
     for lane in 0..L {
         seen[lane] |= doubled[lane] <= 0.0;
     }
+}
+
+/// Vector from one node to another.
+#[inline(always)]
+fn edge<const L: usize>(model: &Model, [from, to]: [u32; 2], u: &[[[f64; L]; 2]]) -> [[f64; L]; 2] {
+    let (from, to, mut out) = (from as usize, to as usize, [[0.0; L]; 2]);
+    for axis in 0..2 {
+        let x = model.points[to][axis] - model.points[from][axis];
+        for lane in 0..L {
+            out[axis][lane] = x + (u[to][axis][lane] - u[from][axis][lane]);
+        }
+    }
+    out
 }
 
 /// First inverted element of one lane, by kind, number and body.

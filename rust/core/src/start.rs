@@ -38,8 +38,8 @@ impl Start {
         }
         let product = |node: usize| {
             model.stiffness.row(node).fold([0.0; 2], |sum, (column, k)| {
-                let u = [displacement[2 * column], displacement[2 * column + 1]];
-                [sum[0] + k[0] * u[0] + k[2] * u[1], sum[1] + k[1] * u[0] + k[3] * u[1]]
+                let force = k.times([displacement[2 * column], displacement[2 * column + 1]]);
+                [sum[0] + force[0], sum[1] + force[1]]
             })
         };
         let moved = displacement.iter().any(|u| *u != 0.0);

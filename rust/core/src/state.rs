@@ -2,6 +2,7 @@
 
 use crate::model::Model;
 use crate::start::Start;
+use crate::stiffness::Aligned;
 
 /// Displacement u_n and velocity v_{n-1/2} of one or many lanes, arrays [node][axis][lane].
 #[derive(Debug, Clone)]
@@ -9,17 +10,17 @@ pub struct State {
     /// Lanes interleaved in the arrays.
     pub lanes: usize,
     /// Displacement u_n (m).
-    pub displacement: Vec<f64>,
+    pub displacement: Aligned,
     /// Displacement of the step before; the step writes the next one into it.
-    pub other: Vec<f64>,
+    pub other: Aligned,
     /// Velocity v_{n-1/2} (m/s).
-    pub velocity: Vec<f64>,
+    pub velocity: Aligned,
 }
 
 impl State {
     /// Empty lanes: everything at rest.
     pub fn new(nodes: usize, lanes: usize) -> Self {
-        let zeros = || vec![0.0; 2 * nodes * lanes];
+        let zeros = || Aligned::zeros(2 * nodes * lanes);
         Self { lanes, displacement: zeros(), other: zeros(), velocity: zeros() }
     }
 
@@ -57,12 +58,9 @@ impl State {
 
     /// The same lanes in a state of another width: those beyond it are gone, new ones are empty.
     pub fn resized(&self, lanes: usize) -> Self {
-        let kept = lanes.min(self.lanes);
-        let resized = |values: &[f64]| -> Vec<f64> {
-            let mut new = vec![0.0; values.len() / self.lanes * lanes];
-            for (new, old) in new.chunks_exact_mut(lanes).zip(values.chunks_exact(self.lanes)) {
-                new[..kept].copy_from_slice(&old[..kept]);
-            }
+        let resized = |values: &[f64]| {
+            let mut new = Aligned::zeros(values.len() / self.lanes * lanes);
+            new.copy_from_slice(&resized(values, self.lanes, lanes));
             new
         };
         let (displacement, other) = (resized(&self.displacement), resized(&self.other));
@@ -78,4 +76,13 @@ impl State {
     pub fn one(&self, values: &[f64], lane: usize) -> Vec<f64> {
         values.iter().skip(lane).step_by(self.lanes).copied().collect()
     }
+}
+
+/// Values [..][lane] of `from` lanes as those of `to` lanes: the first ones kept, new ones zero.
+pub(crate) fn resized(values: &[f64], from: usize, to: usize) -> Vec<f64> {
+    let (kept, mut new) = (from.min(to), vec![0.0; values.len() / from * to]);
+    for (new, old) in new.chunks_exact_mut(to).zip(values.chunks_exact(from)) {
+        new[..kept].copy_from_slice(&old[..kept]);
+    }
+    new
 }

@@ -3,6 +3,9 @@
 use std::sync::Arc;
 
 use crate::contact::search::Search;
+use crate::contact::travel::Travel;
+use crate::enforcement::complementarity::Complementarity;
+use crate::enforcement::{Enforcement, Rows};
 use crate::error::{Error, Result};
 use crate::lane::{Lane, add_to};
 use crate::mass_block::{MassBlock, RowForces};
@@ -32,21 +35,50 @@ pub struct Stepping {
     pub forces: RowForces,
     /// Mass block.
     pub block: MassBlock,
+    /// Solver of multipliers.
+    pub multipliers: Complementarity,
+    /// Active rows, summed over the steps.
+    pub row_steps: u64,
+    /// Multiplications of factorisations for row forces, summed over the steps.
+    pub block_operations: u64,
     /// Why the lane cannot go on, if so: it stands still then.
     pub fault: Option<Error>,
 }
 
 /// Central differences with bipenalty rows (THEORY: section 2), each lane from u_n, v_{n-1/2} to u_{n+1}, v_{n+1/2}.
 ///
-/// A lane that cannot go on gets its `fault` and stays where it is.
-pub fn step(model: &Model, isa: Isa, pace: &mut Pace, state: &mut State, lanes: &mut [Stepping]) {
+/// Rows are those that penetrate at u_n, or, where the enforcement looks ahead, at u* where the bodies get without them.
+/// A lane that cannot go on gets its `fault` and stays where it is, or, found only after the pass over K, goes without rows.
+pub fn step(
+    model: &Model,
+    isa: Isa,
+    threads: usize,
+    pace: &mut Pace,
+    travel: &mut Travel,
+    state: &mut State,
+    lanes: &mut [Stepping],
+) {
+    let ahead = lanes.iter().any(|lane| lane.method.enforcement.looks_ahead());
+    travel.measure(isa, &state.displacement);
     for (number, lane) in lanes.iter_mut().enumerate() {
-        lane.fault = lane.find_rows(state, number).err();
-        lane.measure_rates(state, number, |forces| &mut forces.before);
+        lane.rows.clear();
+        if !lane.method.enforcement.looks_ahead() {
+            lane.fault = lane.find_rows(travel, &state.displacement, state.lanes, number).err();
+            lane.measure_rates(state, number, |forces| &mut forces.before);
+        }
     }
     pace.stop_at_faults(lanes);
-    advance_nodes(model, isa, pace, state);
-    for (number, lane) in lanes.iter_mut().enumerate().filter(|(_, lane)| !lane.rows.is_empty()) {
+    advance_nodes(model, isa, threads, pace, state);
+    if ahead {
+        travel.measure(isa, &state.other);
+    }
+    for (number, lane) in lanes.iter_mut().enumerate() {
+        if lane.method.enforcement.looks_ahead() {
+            lane.fault = lane.look_ahead(travel, state, number).err();
+        }
+        if lane.rows.is_empty() {
+            continue;
+        }
         lane.measure_rates(state, number, |forces| &mut forces.free);
         match lane.find_forces() {
             Ok(()) => lane.push_back(state, number),
@@ -59,15 +91,27 @@ pub fn step(model: &Model, isa: Isa, pace: &mut Pace, state: &mut State, lanes: 
 impl Stepping {
     /// A lane at rest, without rows.
     pub fn new(model: Arc<Model>, dt: f64, method: Method) -> Self {
-        let (search, block) = (Search::new(&model.pairs), MassBlock::default());
-        Self { model, dt, method, search, rows: Vec::new(), forces: RowForces::default(), block, fault: None }
+        Self {
+            search: Search::new(&model.pairs),
+            model,
+            dt,
+            method,
+            rows: Vec::new(),
+            forces: RowForces::default(),
+            block: MassBlock::default(),
+            multipliers: Complementarity::default(),
+            row_steps: 0,
+            block_operations: 0,
+            fault: None,
+        }
     }
 
-    /// Rows active at u_n with their penalties.
-    fn find_rows(&mut self, state: &State, lane: usize) -> Result<()> {
-        let (model, u) = (&self.model, Lane::new(&state.displacement, state.lanes, lane));
-        self.rows.clear();
-        self.search.keep(&model.pairs, &model.points, u)?;
+    /// Rows active at a displacement, [node][axis][lane], with their penalties; there must be none yet.
+    fn find_rows(&mut self, travel: &mut Travel, displacement: &[f64], lanes: usize, lane: usize) -> Result<()> {
+        let (model, u) = (&self.model, Lane::new(displacement, lanes, lane));
+        if self.search.keep(&model.pairs, &model.points, u, |body| travel.far(body, lane))? {
+            travel.restart(lane, displacement);
+        }
         for (i, linear) in model.linear.iter().enumerate() {
             self.rows.push(linear.row((model.contacts.len() + i) as u32, u));
         }
@@ -88,21 +132,52 @@ impl Stepping {
         rates.extend(self.rows.iter().map(|row| row.along(v)));
     }
 
-    /// `[M + G'PG] a = f - K u - G'(A_s g + A_d G v)`, solved for the row forces.
+    /// Rows active at u*, and their rates `G v_{n-1/2} = G v* - dt G M^-1 (f - K u_n)` half a step before.
+    fn look_ahead(&mut self, travel: &mut Travel, state: &State, lane: usize) -> Result<()> {
+        let of = |values| Lane::new(values, state.lanes, lane);
+        let (u, v, dt) = (of(&state.displacement), of(&state.velocity), self.dt);
+        self.find_rows(travel, &state.other, state.lanes, lane)?;
+        let (model, before) = (&self.model, &mut self.forces.before);
+        let rate = |(node, g): (u32, [f64; 2])| {
+            let (v, w) = (v.at(node), model.inverse_mass[node as usize]);
+            let f = model.nodal_force(model.body_of(node), node, u);
+            g[0] * (v[0] - dt * w[0] * f[0]) + g[1] * (v[1] - dt * w[1] * f[1])
+        };
+        before.clear();
+        before.extend(self.rows.iter().map(|row| row.entries().map(rate).sum::<f64>()));
+        Ok(())
+    }
+
+    /// `[M + G'PG] a = f - K u - G'(A_s g + A_d G v)`, solved for the row forces, or what the enforcement has instead.
     fn find_forces(&mut self) -> Result<()> {
-        self.block.forces(&self.model.inverse_mass, &self.rows, self.dt, &mut self.forces)?;
+        let (model, rows, dt) = (&self.model, &self.rows, self.dt);
+        self.row_steps += rows.len() as u64;
+        self.block_operations += if self.method.enforcement == Enforcement::Penalty {
+            self.block.forces(&model.inverse_mass, rows, dt, &mut self.forces)?;
+            self.block.operations
+        } else {
+            let of = Rows { inverse_mass: &model.inverse_mass, rows, two_sided: model.linear.len(), dt };
+            self.method.enforcement.forces(of, &mut self.multipliers, &mut self.forces)?
+        } as u64;
         let finite = self.forces.lambda.iter().all(|lambda| lambda.is_finite());
         if finite { Ok(()) } else { Err(Error::Run(Kind::NotFinite, "contact force is not finite".to_string())) }
     }
 
     /// `v += dt M^-1 G' lambda`, `u += dt^2 M^-1 G' lambda`.
-    fn push_back(&self, state: &mut State, lane: usize) {
+    fn push_back(&mut self, state: &mut State, lane: usize) {
         for (row, lambda) in self.rows.iter().zip(&self.forces.lambda) {
             for (node, g) in row.entries() {
                 let (w, impulse) = (self.model.inverse_mass[node as usize], self.dt * lambda);
                 let dv = [impulse * g[0] * w[0], impulse * g[1] * w[1]];
                 add_to(&mut state.velocity, state.lanes, lane, node, dv);
                 add_to(&mut state.other, state.lanes, lane, node, dv.map(|dv| self.dt * dv));
+            }
+        }
+        if self.method.enforcement.looks_ahead() {
+            // From g(u*) to what is left at u_{n+1}, to first order: the predicted gap is no penetration of anything.
+            let v = Lane::new(&state.velocity, state.lanes, lane);
+            for (row, free) in self.rows.iter_mut().zip(&self.forces.free) {
+                row.gap += self.dt * (row.along(v) - free);
             }
         }
     }

@@ -135,3 +135,27 @@ fn rows_without_mass_or_damping_need_no_block() {
     assert_eq!(group.lanes[0].block.analyses(), 0);
     assert_eq!(group.lanes[0].block.used(), None);
 }
+
+#[test]
+fn many_rows_on_few_nodes_are_solved_over_the_nodes() {
+    // 12 rows on two nodes: the primal is chosen, and gives what the dual gives.
+    let row = |i: usize| {
+        let angle = 0.5 * i as f64;
+        let entries = [(0, [angle.cos(), angle.sin()]), (1, [-angle.sin(), angle.cos()])];
+        let mut row = Row::new(&entries, 0, -1e-4 * i as f64, Default::default());
+        (row.penalties.alpha_s, row.penalties.alpha_m) = (1e4, 0.1);
+        row
+    };
+    let rows: Vec<Row> = (0..12).map(row).collect();
+    let solve = |forced| {
+        let rates = |scale: f64| rows.iter().map(|row| scale * row.gap).collect();
+        let mut forces = RowForces { before: rates(1e3), free: rates(1.1e3), lambda: Vec::new() };
+        let mut block = MassBlock::default();
+        block.forced = forced;
+        block.forces(&[[2.0; 2]; 2], &rows, 1e-3, &mut forces).unwrap();
+        (DVector::from_vec(forces.lambda), block.used())
+    };
+    let ((chosen, used), (dual, _)) = (solve(None), solve(Some(Solver::Dual)));
+    assert_eq!(used, Some(Solver::Primal));
+    assert!((&chosen - &dual).amax() < 1e-9 * dual.amax());
+}

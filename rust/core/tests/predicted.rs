@@ -1,6 +1,7 @@
 //! Predicted against observed: runs at 0.98 and 1.02 of the limit that `critical_step` gives hold and blow up.
 //!
-//! Rows are fixed: random ones on random meshes, and those of a collision frozen at an instant.
+//! Rows are fixed: random ones on random meshes, and those of a collision frozen at an instant. Rows of multipliers cost no
+//! time step; those of the predictor-corrector have a limit of their own.
 
 mod common;
 
@@ -16,7 +17,9 @@ use bipenalty::run::RunSpec;
 use bipenalty::scene::Scene;
 use bipenalty::start::Start;
 use bipenalty::stiffness::Isa;
-use common::{bipenalty, blocks, body, method, rectangle, start, steel};
+use common::{
+    bipenalty, blocks, body, cd_lagrange, forward_increment, method, predictor_corrector, rectangle, start, steel,
+};
 
 /// A run of small random velocities; `growth` says how far displacements may go.
 fn run(model: &Arc<Model>, method: Method, dt: f64) -> Group {
@@ -99,6 +102,48 @@ fn a_collision_frozen_at_an_instant() {
         let omega2 = model.element_omega().powi(2);
         for (ps, mass) in [(1.0, Mass::None), (30.0, Mass::None), (1e3, Mass::Ratio(3.0 * omega2))] {
             check_both_sides(&frozen, ps, mass, &format!("quads {quads}, {passes} passes"));
+        }
+    }
+}
+
+/// Two blocks held together at the middle of their sides, by `copies` of one row.
+fn joined(copies: usize) -> Arc<Model> {
+    let bodies = [0.0, 1.0].map(|x| {
+        body(if x == 0.0 { "left" } else { "right" }, rectangle([x, 0.0], [1.0, 1.0], [4, 4], 0.2, true), steel())
+    });
+    let entries = vec![(14, [-1.0, 0.0]), (25 + 10, [1.0, 0.0])];
+    let linear = vec![Linear { entries, offset: 0.0, young: steel().young }; copies];
+    Arc::new(Model::new(Scene { bodies: bodies.into(), linear, ..Scene::default() }).unwrap())
+}
+
+#[test]
+fn multipliers_cost_no_time_step() {
+    for method in [cd_lagrange(), forward_increment()] {
+        for copies in [1, 2] {
+            let model = joined(copies);
+            let limit = assembled_bound(&model);
+            let held = run(&model, method, 0.98 * limit);
+            assert_eq!(held.runs[0].outcome, Outcome::Running, "{method:?}");
+            assert!(held.runs[0].history.peaks.displacement < 1.0, "{}", held.runs[0].history.peaks.displacement);
+            assert!(run(&model, method, 1.02 * limit).runs[0].outcome != Outcome::Running, "{method:?}");
+        }
+    }
+}
+
+#[test]
+fn the_predictor_corrector_holds_while_rows_on_the_same_nodes_correct_no_more_than_the_gap() {
+    for copies in [2, 3] {
+        let model = joined(copies);
+        for (courant, beyond) in [(0.1, 1.4), (0.6, 1.15), (0.9, 1.15)] {
+            let dt = courant * assembled_bound(&model);
+            let outcome = |share: f64| {
+                let group = run(&model, predictor_corrector(1e9, share / copies as f64), dt);
+                (group.runs[0].outcome == Outcome::Running, group.runs[0].history.peaks.displacement)
+            };
+            let (held, most) = outcome(0.99);
+            assert!(held && most < 1.0, "{copies} copies, {courant}: {most}");
+            // Slow growth from 1 on, the faster the larger the time step; at once from 4/3 on.
+            assert!(!outcome(beyond).0, "{copies} copies, {courant}");
         }
     }
 }

@@ -20,7 +20,7 @@ fn rows_agree_with_fresh_searches(scene: Scene, velocity: [f64; 2], steps: usize
         run.advance(1);
         let u = Lane::new(&run.state.other, 1, 0);
         let mut fresh = Search::new(&model.pairs);
-        fresh.keep(&model.pairs, &model.points, u).unwrap();
+        fresh.keep(&model.pairs, &model.points, u, |_| 0.0).unwrap();
         let mut rows = Vec::new();
         for (pair, candidates) in model.pairs.iter().zip(&fresh.candidates) {
             pair.rows(candidates, &model.points, u, &mut rows);

@@ -7,6 +7,7 @@ use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::errors::to_python;
 use crate::isa::named;
 use crate::model::Model;
 use crate::observations;
@@ -52,6 +53,11 @@ impl Batch {
         let isa = named(py, isa)?;
         let model = model.inner.clone();
         Ok(Self { inner: bipenalty::batch::Batch::new(model.clone(), isa, lanes, specs), model })
+    }
+
+    /// Raises InputError unless a run can begin.
+    fn check(&self, py: Python<'_>, index: usize) -> PyResult<()> {
+        self.inner.check(index).map_err(|e| to_python(py, &e))
     }
 
     /// Works for about `seconds` on `threads` threads; returns the node-steps done.

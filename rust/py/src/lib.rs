@@ -9,6 +9,7 @@ mod mesh;
 mod method;
 mod model;
 mod observations;
+mod probe;
 mod run;
 mod run_spec;
 mod scene;
@@ -25,6 +26,8 @@ mod _core {
     use super::mesh::check_mesh;
     #[pymodule_export]
     use super::model::Model;
+    #[pymodule_export]
+    use super::probe::{probe_bandwidth, probe_fma_rate, probe_kernel};
     #[pymodule_export]
     use super::run::Run;
 

@@ -1,10 +1,12 @@
 //! A penalty method as Python passes it on: the name and value of the rule for each penalty.
 
+use bipenalty::enforcement::Enforcement;
 use bipenalty::penalty::{Damping, Mass, Method, Stiffness};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-/// Read from the attributes `stiffness_rule`, `kappa_rule`, `mass_rule` and `damping_rule`.
+/// Read from the attributes `stiffness_rule`, `kappa_rule`, `mass_rule` and `damping_rule`, and from `enforcement_rule`
+/// of methods whose rows do not get their forces from penalties alone.
 pub struct MethodIn(pub Method);
 
 impl<'py> FromPyObject<'_, 'py> for MethodIn {
@@ -15,6 +17,7 @@ impl<'py> FromPyObject<'_, 'py> for MethodIn {
         let unknown = |what: &str, name: &str| PyTypeError::new_err(format!("unknown {what} rule {name:?}"));
         let (name, value) = rule("stiffness_rule")?;
         let stiffness = match name.as_str() {
+            "none" => Stiffness::Factor(0.0),
             "factor" => Stiffness::Factor(value),
             "capped" => Stiffness::Capped,
             "element" => Stiffness::Element(value),
@@ -37,11 +40,26 @@ impl<'py> FromPyObject<'_, 'py> for MethodIn {
             "critical" => Damping::Critical,
             other => return Err(unknown("damping", other)),
         };
-        Ok(Self(Method { stiffness, kappa: object.getattr("kappa_rule")?.extract()?, mass, damping }))
+        let enforcement = match object.getattr_opt("enforcement_rule")? {
+            None => Enforcement::Penalty,
+            Some(rule) => {
+                let (name, tolerance): (String, f64) = rule.extract()?;
+                match name.as_str() {
+                    "penalty" => Enforcement::Penalty,
+                    "velocity Lagrange" => Enforcement::VelocityLagrange { tolerance },
+                    "forward increment" => Enforcement::ForwardIncrement { tolerance },
+                    "predictor-corrector" => Enforcement::PredictorCorrector,
+                    other => return Err(unknown("enforcement", other)),
+                }
+            }
+        };
+        let kappa = object.getattr("kappa_rule")?.extract()?;
+        Ok(Self(Method { stiffness, kappa, mass, damping, enforcement }))
     }
 }
 
 /// Stands for a method where each run brings its own.
 pub fn none() -> Method {
-    Method { stiffness: Stiffness::Factor(0.0), kappa: f64::INFINITY, mass: Mass::None, damping: Damping::None }
+    let (stiffness, enforcement) = (Stiffness::Factor(0.0), Enforcement::Penalty);
+    Method { stiffness, kappa: f64::INFINITY, mass: Mass::None, damping: Damping::None, enforcement }
 }

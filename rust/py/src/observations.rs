@@ -52,5 +52,7 @@ fn summary<'py>(py: Python<'py>, run: &Summary) -> PyResult<Bound<'py, PyDict>> 
     dict.set_item("reason", run.conclusion.reason())?;
     dict.set_item("stopped", run.stopped)?;
     dict.set_item("energy_made", run.energy_made)?;
+    dict.set_item("row_steps", run.row_steps)?;
+    dict.set_item("block_operations", run.block_operations)?;
     Ok(dict)
 }

@@ -1,5 +1,6 @@
 //! One run: step, look, go on.
 
+use bipenalty::crew::{Crew, LARGE};
 use bipenalty::critical_step::rows;
 use bipenalty::ended::Summary;
 use bipenalty::group::Group;
@@ -35,10 +36,14 @@ impl Run {
         velocity: PyReadonlyArray2<'_, f64>,
         displacement: PyReadonlyArray2<'_, f64>,
         isa: &str,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
         let start = start(py, &model.inner, &velocity, &displacement)?;
         let spec = RunSpec { allow_unstable, ..RunSpec::new(method.0, dt, start) };
-        let group = Group::alone(model.inner.clone(), named(py, isa)?, &spec).map_err(|e| to_python(py, &e))?;
+        let mut group = Group::alone(model.inner.clone(), named(py, isa)?, &spec).map_err(|e| to_python(py, &e))?;
+        let large = model.inner.points.len() >= LARGE;
+        let usual = || std::thread::available_parallelism().map_or(1, |n| if large { n.get() } else { 1 });
+        group.crew = Crew::new(threads.unwrap_or_else(usual)).map_err(|e| to_python(py, &e))?;
         Ok(Self { group })
     }
 
@@ -125,12 +130,12 @@ impl Run {
     }
 }
 
-fn view<'py>(this: Bound<'py, Run>, get: impl Fn(&Group) -> &Vec<f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+fn view<'py>(this: Bound<'py, Run>, get: impl Fn(&Group) -> &[f64]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let run = this.borrow();
     let values = get(&run.group);
     let shape = [values.len() / 2, 2];
-    let array = ArrayView2::from_shape(shape, values.as_slice())
-        .map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;
+    let array =
+        ArrayView2::from_shape(shape, values).map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;
     // SAFETY: the array keeps the run alive, and the run's buffers keep their place and length as long as it lives.
     let array = unsafe { PyArray2::borrow_from_array(&array, this.clone().into_any()) };
     array.readwrite().make_nonwriteable();

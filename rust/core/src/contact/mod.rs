@@ -8,6 +8,7 @@ pub mod pair;
 pub mod posed;
 pub mod search;
 pub mod surface;
+pub mod travel;
 
 pub use pair::{Pair, Primary};
 pub use surface::Surface;

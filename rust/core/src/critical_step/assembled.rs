@@ -28,9 +28,8 @@ pub(super) fn apply(model: &Model, body: &Body, scale: &[f64], x: &[f64], out: &
         let mut sum = [0.0; 2];
         for (column, k) in model.stiffness.row(first + i) {
             let (u, s) = (x[column - first], scale[column - first]);
-            let [ux, uy] = [u[0] * s[0], u[1] * s[1]];
-            sum[0] += k[0] * ux + k[2] * uy;
-            sum[1] += k[1] * ux + k[3] * uy;
+            let force = k.times([u[0] * s[0], u[1] * s[1]]);
+            sum = [sum[0] + force[0], sum[1] + force[1]];
         }
         *out = [0, 1].map(|axis| body.young_factor * own[axis] * sum[axis]);
     }

@@ -30,6 +30,8 @@ pub struct Envelope {
     pub start: Vec<u32>,
     /// Products that make up the matrix.
     pub terms: Vec<Term>,
+    /// Nodes that the rows touch.
+    pub nodes: usize,
     /// Multiplications of a factorisation.
     pub operations: usize,
     /// How often the pattern has changed.
@@ -57,6 +59,7 @@ impl Envelope {
             self.touched.extend((0..).zip(row.entries()).map(|(entry, (node, _))| (node, number, entry)));
         }
         self.touched.sort_unstable();
+        self.nodes = self.touched.chunk_by(|a, b| a.0 == b.0).count();
         self.number(rows);
         self.shape(rows.len());
         self.products();
@@ -135,6 +138,18 @@ impl Envelope {
                     self.terms.push(Term { slot, factors: [(a, entry_a), (b, entry_b)], times });
                 }
             }
+        }
+    }
+
+    /// Values of `G M^-1 G'`, the lower triangle in the envelope; it must be up to date with the rows.
+    pub fn gram(&self, inverse_mass: &[[f64; 2]], rows: &[Row], values: &mut Vec<f64>) {
+        values.clear();
+        values.resize(self.start[rows.len()] as usize, 0.0);
+        for term in &self.terms {
+            let [(a, ea), (b, eb)] = term.factors;
+            let ((node, ga), (_, gb)) = (rows[a as usize].entry(ea), rows[b as usize].entry(eb));
+            let w = inverse_mass[node as usize];
+            values[term.slot as usize] += term.times * (w[0] * ga[0] * gb[0] + w[1] * ga[1] * gb[1]);
         }
     }
 }

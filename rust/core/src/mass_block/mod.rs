@@ -7,6 +7,7 @@
 mod choice;
 pub mod dual;
 pub mod envelope;
+pub mod ldl;
 pub mod pattern;
 pub mod primal;
 
@@ -24,6 +25,8 @@ pub struct MassBlock {
     primal: Primal,
     /// Which solver to use, unless the choice is left to the block.
     pub forced: Option<Solver>,
+    /// Multiplications of the last factorisation; 0 where none was needed.
+    pub operations: usize,
     used: Option<Solver>,
 }
 
@@ -47,23 +50,35 @@ impl MassBlock {
     /// A block that is not positive definite, which only non-finite input can bring about.
     pub fn forces(&mut self, inverse_mass: &[[f64; 2]], rows: &[Row], dt: f64, forces: &mut RowForces) -> Result<()> {
         forces.lambda.clear();
+        self.operations = 0;
         if rows.iter().all(|row| row.penalties.inertia(dt) == 0.0) {
             forces.lambda.extend(rows.iter().map(|row| -row.penalties.alpha_s * row.gap));
             return Ok(());
         }
         self.dual.envelope.update(rows);
-        let solver = self.forced.unwrap_or_else(|| choice::solver(rows.len(), self.dual.envelope.operations));
+        let solver = self.forced.unwrap_or_else(|| choice::solver(rows.len(), self.dual.envelope.nodes));
         self.used = Some(solver);
-        match solver {
-            Solver::Dual => self.dual.solve(inverse_mass, rows, dt, forces),
-            Solver::Primal => self.primal.solve(inverse_mass, rows, dt, forces)?,
-        }
+        self.operations = match solver {
+            Solver::Dual => {
+                self.dual.solve(inverse_mass, rows, dt, forces);
+                self.dual.envelope.operations
+            }
+            Solver::Primal => {
+                self.primal.solve(inverse_mass, rows, dt, forces)?;
+                self.primal.operations
+            }
+        };
         Ok(())
     }
 
     /// How often the pattern of the rows has changed and been analysed anew.
     pub fn analyses(&self) -> usize {
         self.dual.envelope.analyses
+    }
+
+    /// Multiplications that factorising the dual's envelope takes.
+    pub fn operations(&self) -> usize {
+        self.dual.envelope.operations
     }
 
     /// The solver used last; none so far if no row has had a mass or damping penalty.

@@ -31,6 +31,8 @@ pub struct Primal {
     solution: Vec<f64>,
     memory: Option<MemBuffer>,
     room: usize,
+    /// Multiplications of a factorisation.
+    pub operations: usize,
 }
 
 impl Primal {
@@ -97,8 +99,10 @@ impl Primal {
         self.factor_start.clear();
         self.factor_start.push(0);
         let mut total = 0;
+        self.operations = 0;
         for count in &self.counts {
             total += count;
+            self.operations += (count * (count + 1) / 2) as usize;
             self.factor_start.push(total);
         }
         self.factor.resize(total as usize, 0.0);

@@ -9,6 +9,7 @@ pub use damping::Damping;
 pub use mass::{Mass, R_SAFETY};
 pub use stiffness::Stiffness;
 
+use crate::enforcement::Enforcement;
 use crate::error::{Error, Result};
 use crate::row::{Penalties, Row};
 
@@ -23,6 +24,8 @@ pub struct Method {
     pub mass: Mass,
     /// Damping penalty.
     pub damping: Damping,
+    /// How rows get their forces, from these penalties or without any.
+    pub enforcement: Enforcement,
 }
 
 /// What a rule may know of a row.
@@ -45,7 +48,13 @@ impl Method {
         self.stiffness.check(object)?;
         cap::check(object, self.kappa, self.stiffness)?;
         self.mass.check(object)?;
-        self.damping.check(object, self.mass)
+        self.damping.check(object, self.mass)?;
+        self.enforcement.check(object, self)
+    }
+
+    /// Penalty ratio R (1/s^2) that the equation of motion sees; infinite without a mass penalty in it.
+    pub fn ratio(&self, dt: f64) -> f64 {
+        if self.enforcement == Enforcement::Penalty { self.mass.ratio(dt) } else { f64::INFINITY }
     }
 
     /// Penalties of a row.

@@ -1,7 +1,7 @@
 //! Assembly: elements of one mesh into block rows, lumped mass and the element frequency bound.
 
 use super::BlockCsr;
-use crate::element::{largest_frequency, quad4, tri3};
+use crate::element::{frequency, quad4, tri3};
 use crate::material::Material;
 use crate::mesh::Mesh;
 
@@ -23,13 +23,13 @@ pub fn assemble(mesh: &Mesh, material: &Material, thickness: f64) -> Assembled {
     for nodes in &mesh.triangles {
         let points = nodes.map(|n| mesh.points[n]);
         let (k, m) = tri3::stiffness_and_mass(&points, &elasticity, thickness, material.density);
-        out.element_omega = out.element_omega.max(largest_frequency(&k, &m));
+        out.element_omega = frequency::larger(out.element_omega, &k, &m);
         out.add(nodes, |i, j| k[(i, j)], &m);
     }
     for nodes in &mesh.quads {
         let points = nodes.map(|n| mesh.points[n]);
         let (k, m) = quad4::stiffness_and_mass(&points, &elasticity, thickness, material.density);
-        out.element_omega = out.element_omega.max(largest_frequency(&k, &m));
+        out.element_omega = frequency::larger(out.element_omega, &k, &m);
         out.add(nodes, |i, j| k[(i, j)], &m);
     }
     out
@@ -43,9 +43,7 @@ impl Assembled {
             for (b, &j) in nodes.iter().enumerate() {
                 let columns = &self.stiffness.column[row.clone()];
                 let at = row.start + columns.partition_point(|&c| (c as usize) < j);
-                for (s, value) in self.stiffness.block[at].iter_mut().enumerate() {
-                    *value += k(2 * a + s % 2, 2 * b + s / 2);
-                }
+                self.stiffness.block[at].add(|row, column| k(2 * a + row, 2 * b + column));
             }
         }
     }
@@ -53,18 +51,13 @@ impl Assembled {
 
 /// Zero matrix whose pattern couples all nodes that share an element.
 fn pattern(mesh: &Mesh) -> BlockCsr {
-    let mut elements_of: Vec<Vec<&[usize]>> = vec![Vec::new(); mesh.points.len()];
+    let mut columns: Vec<Vec<u32>> = vec![Vec::with_capacity(16); mesh.points.len()];
     for (_, _, nodes) in mesh.elements() {
-        nodes.iter().for_each(|&n| elements_of[n].push(nodes));
+        nodes.iter().for_each(|&n| columns[n].extend(nodes.iter().map(|&m| m as u32)));
     }
-    let (mut row_start, mut column) = (vec![0], Vec::new());
-    for elements in elements_of {
-        let mut neighbours: Vec<u32> = elements.into_iter().flatten().map(|&n| n as u32).collect();
-        neighbours.sort_unstable();
-        neighbours.dedup();
-        column.extend(neighbours);
-        row_start.push(column.len() as u32);
+    for columns in &mut columns {
+        columns.sort_unstable();
+        columns.dedup();
     }
-    let block = vec![[0.0; 4]; column.len()];
-    BlockCsr { row_start, column, block }
+    BlockCsr::zeros(&columns)
 }

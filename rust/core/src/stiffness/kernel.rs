@@ -1,9 +1,15 @@
 //! THE kernel: one pass over K advances every lane of a range of nodes.
 
+use std::ops::Range;
+
 use super::BlockCsr;
+use super::rows::{Force, Rows};
 use super::simd::{Isa, Loop, Madd, dispatch};
+#[cfg(target_arch = "x86_64")]
+use super::{single, wide};
 
 /// What the pass reads besides K. Arrays over nodes are [node][axis][lane].
+#[derive(Clone, Copy)]
 pub struct Pass<'a, const L: usize> {
     /// Stiffness K (N/m).
     pub stiffness: &'a BlockCsr,
@@ -23,20 +29,32 @@ pub struct Pass<'a, const L: usize> {
 
 /// `v += dt M^-1 (f - K u)`, `next = u + dt v` for the nodes of `range`; `velocity` and `next` cover the range only.
 ///
-/// Every lane sees the same operations in the same order whatever the number of lanes.
+/// Every lane sees the same operations in the same order whatever the number of lanes. 8 and 16 lanes are fastest in
+/// arrays that begin at a cache line ([`super::Aligned`]).
+///
+/// # Panics
+/// Arrays shorter than the matrix or the range.
 pub fn advance<const L: usize>(
     isa: Isa,
     pass: &Pass<L>,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     velocity: &mut [[f64; L]],
     next: &mut [[f64; L]],
 ) {
+    #[cfg(target_arch = "x86_64")]
+    match (L, isa) {
+        (1, Isa::Avx2 | Isa::Avx512) if isa.is_here() => {
+            return single::advance(pass, range, velocity.as_flattened_mut(), next.as_flattened_mut());
+        }
+        (8 | 16, Isa::Avx2 | Isa::Avx512) if isa.is_here() => return wide::advance(isa, pass, range, velocity, next),
+        _ => {}
+    }
     dispatch(isa, Advance { pass, range, velocity, next });
 }
 
 struct Advance<'a, const L: usize> {
     pass: &'a Pass<'a, L>,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     velocity: &'a mut [[f64; L]],
     next: &'a mut [[f64; L]],
 }
@@ -44,62 +62,63 @@ struct Advance<'a, const L: usize> {
 impl<const L: usize> Loop for Advance<'_, L> {
     type Output = ();
 
-    /// The loop itself, without loads where the scene has none.
     #[inline(always)]
     fn run<M: Madd>(self) {
-        match self.pass.load {
-            None => self.sweep::<M>(|_, v, _| v),
-            Some(load) => self.sweep::<M>(|node, v, dt_w| {
-                let f = load[node];
-                std::array::from_fn(|axis| {
-                    std::array::from_fn(|lane| M::madd(dt_w[axis][lane], f[axis], v[axis][lane]))
-                })
-            }),
+        let Self { pass, range, velocity, next } = self;
+        let rows = Rows::new(pass.stiffness, pass.displacement);
+        let nodes = range.len();
+        let inverse_mass = &pass.inverse_mass[range.clone()];
+        let load = pass.load.map(|load| &load[range.clone()]);
+        let velocity = &mut velocity.as_chunks_mut::<2>().0[..nodes];
+        let next = &mut next.as_chunks_mut::<2>().0[..nodes];
+        // Copied, so that nothing written can be one of them: they stay in registers.
+        let update = Update { dt: pass.dt, elastic_dt: pass.elastic_dt.map(|dt| -dt), load_dt: pass.load_dt };
+        for at in 0..nodes {
+            let (node, f) = (range.start + at, load.map(|load| load[at]));
+            let force = rows.one::<M>(node);
+            next[at] = update.node::<M>(inverse_mass[at], f, &force, &mut velocity[at], rows.at(node));
         }
     }
 }
 
-impl<const L: usize> Advance<'_, L> {
-    /// `loaded` adds dt M^-1 f to a node's velocity.
+/// What multiplies velocity, M^-1 K u (negative) and M^-1 f.
+struct Update<const L: usize> {
+    dt: [f64; L],
+    elastic_dt: [f64; L],
+    load_dt: [f64; L],
+}
+
+impl<const L: usize> Update<L> {
+    /// New velocity of a node in place, and its new displacement from x, under the force K u and the load f.
+    #[expect(clippy::needless_range_loop, reason = "one index counts lanes in several arrays")]
     #[inline(always)]
-    fn sweep<M: Madd>(self, loaded: impl Fn(usize, [[f64; L]; 2], [[f64; L]; 2]) -> [[f64; L]; 2]) {
-        let Pass { stiffness, dt, elastic_dt, load_dt, .. } = *self.pass;
-        let (nodes, u) = (self.range.clone(), self.pass.displacement.as_chunks::<2>().0);
-        let starts = stiffness.row_start[nodes.start..=nodes.end].array_windows::<2>();
-        let own = u[nodes.clone()].iter().zip(&self.pass.inverse_mass[nodes.clone()]);
-        let out = self.velocity.as_chunks_mut::<2>().0.iter_mut().zip(self.next.as_chunks_mut::<2>().0);
-        for (node, (([start, end], (x, w)), (v, next))) in nodes.zip(starts.zip(own).zip(out)) {
-            let blocks = *start as usize..*end as usize;
-            let force = product::<L, M>(&stiffness.block[blocks.clone()], &stiffness.column[blocks], u);
-            let mut new = *v;
-            for axis in 0..2 {
-                for lane in 0..L {
-                    new[axis][lane] = M::madd(-elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
-                }
-            }
-            new = loaded(node, new, w.map(|w| load_dt.map(|dt| dt * w)));
-            for axis in 0..2 {
-                for lane in 0..L {
-                    next[axis][lane] = M::madd(dt[lane], new[axis][lane], x[axis][lane]);
-                }
-            }
-            *v = new;
-        }
-    }
-}
-
-/// One block row times u: four sums, one a block entry, so that the order is the same for 1, 8 and 16 lanes.
-#[inline(always)]
-fn product<const L: usize, M: Madd>(blocks: &[[f64; 4]], columns: &[u32], u: &[[[f64; L]; 2]]) -> [[f64; L]; 2] {
-    let mut sum = [[0.0; L]; 4];
-    for (k, &column) in blocks.iter().zip(columns) {
-        let [ux, uy] = u[column as usize];
-        let factor = [ux, ux, uy, uy];
-        for entry in 0..4 {
+    fn node<M: Madd>(
+        &self,
+        w: [f64; 2],
+        f: Option<[f64; 2]>,
+        force: &Force<L>,
+        v: &mut [[f64; L]; 2],
+        x: &[[f64; L]; 2],
+    ) -> [[f64; L]; 2] {
+        let (mut new, mut moved) = (*v, *x);
+        for axis in 0..2 {
             for lane in 0..L {
-                sum[entry][lane] = M::madd(k[entry], factor[entry][lane], sum[entry][lane]);
+                new[axis][lane] = M::madd(self.elastic_dt[lane] * w[axis], force[axis][lane], new[axis][lane]);
             }
         }
+        if let Some(f) = f {
+            for axis in 0..2 {
+                for lane in 0..L {
+                    new[axis][lane] = M::madd(self.load_dt[lane] * w[axis], f[axis], new[axis][lane]);
+                }
+            }
+        }
+        for axis in 0..2 {
+            for lane in 0..L {
+                moved[axis][lane] = M::madd(self.dt[lane], new[axis][lane], moved[axis][lane]);
+            }
+        }
+        *v = new;
+        moved
     }
-    std::array::from_fn(|axis| std::array::from_fn(|lane| sum[axis][lane] + sum[axis + 2][lane]))
 }

@@ -49,7 +49,7 @@ impl Isa {
     }
 
     /// True when this machine has it.
-    fn is_here(self) -> bool {
+    pub(crate) fn is_here(self) -> bool {
         match self {
             Self::Baseline => true,
             #[cfg(target_arch = "x86_64")]
@@ -62,31 +62,41 @@ impl Isa {
     }
 }
 
-/// `a b + c`, fused where the instruction set has it: without hardware support fusing is a slow library call.
+/// What a loop needs to know of the instruction set it is compiled for.
 pub(crate) trait Madd {
+    /// `a b + c`, fused where the instruction set has it: without hardware support fusing is a slow library call.
     fn madd(a: f64, b: f64, c: f64) -> f64;
 }
 
-/// Machine with fused multiply-add.
-pub(crate) struct Fused;
-/// Machine without.
-pub(crate) struct Separate;
+struct Baseline;
+struct Avx2;
+struct Avx512;
 
-impl Madd for Fused {
-    #[inline(always)]
-    fn madd(a: f64, b: f64, c: f64) -> f64 {
-        a.mul_add(b, c)
-    }
-}
-
-impl Madd for Separate {
+impl Madd for Baseline {
     #[inline(always)]
     fn madd(a: f64, b: f64, c: f64) -> f64 {
         a * b + c
     }
 }
 
-/// A loop to be compiled for each instruction set; `run` and what it calls must be `#[inline(always)]`.
+impl Madd for Avx2 {
+    #[inline(always)]
+    fn madd(a: f64, b: f64, c: f64) -> f64 {
+        a.mul_add(b, c)
+    }
+}
+
+impl Madd for Avx512 {
+    #[inline(always)]
+    fn madd(a: f64, b: f64, c: f64) -> f64 {
+        a.mul_add(b, c)
+    }
+}
+
+/// A loop to be compiled for each instruction set.
+///
+/// `run` and what it calls, closures too, must be `#[inline(always)]`: what stays a call is compiled for the baseline,
+/// where each fused multiply-add is a library call.
 pub(crate) trait Loop {
     type Output;
     fn run<M: Madd>(self) -> Self::Output;
@@ -101,17 +111,17 @@ pub(crate) fn dispatch<T: Loop>(isa: Isa, work: T) -> T::Output {
         Isa::Avx2 if isa.is_here() => return unsafe { with_avx2(work) },
         _ => {}
     }
-    work.run::<Separate>()
+    work.run::<Baseline>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,fma")]
 fn with_avx512<T: Loop>(work: T) -> T::Output {
-    work.run::<Fused>()
+    work.run::<Avx512>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2<T: Loop>(work: T) -> T::Output {
-    work.run::<Fused>()
+    work.run::<Avx2>()
 }

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use bipenalty::enforcement::Enforcement;
 use bipenalty::group::Group;
 use bipenalty::material::{Material, Plane};
 use bipenalty::mesh::Mesh;
@@ -69,7 +70,26 @@ pub fn wall() -> (String, Obstacle) {
 }
 
 pub fn method(ps: f64, mass: Mass, damping: Damping) -> Method {
-    Method { stiffness: Stiffness::Factor(ps), kappa: f64::INFINITY, mass, damping }
+    let (stiffness, enforcement) = (Stiffness::Factor(ps), Enforcement::Penalty);
+    Method { stiffness, kappa: f64::INFINITY, mass, damping, enforcement }
+}
+
+/// A method without penalties.
+pub fn lagrange(enforcement: Enforcement) -> Method {
+    Method { enforcement, ..method(0.0, Mass::None, Damping::None) }
+}
+
+pub fn cd_lagrange() -> Method {
+    lagrange(Enforcement::VelocityLagrange { tolerance: 1e-10 })
+}
+
+pub fn forward_increment() -> Method {
+    lagrange(Enforcement::ForwardIncrement { tolerance: 1e-10 })
+}
+
+/// Predictor-corrector bipenalty, alpha_m = alpha_s dt^2/s2.
+pub fn predictor_corrector(ps: f64, s2: f64) -> Method {
+    Method { enforcement: Enforcement::PredictorCorrector, ..method(ps, Mass::Critical(s2), Damping::None) }
 }
 
 pub fn bipenalty(ps: f64) -> Method {
