@@ -96,7 +96,7 @@ def work_precision_overview(
     error: str = "force",
     cost: str = "seconds",
     *,
-    methods: Sequence[str] = ("parameter-free", "CD-Lagrange", "published", "stiffness", "nodal mass stiffness"),
+    methods: Sequence[str] = ("parameter-free", "CD-Lagrange", "predictor-corrector", "published", "stiffness"),
     title: str | None = None,
     size: tuple[float, float] | None = None,
 ) -> Figure:
