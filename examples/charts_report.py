@@ -194,10 +194,10 @@ def _head(charts: Mapping[str, xr.Dataset]) -> Iterator[str]:
             yield f"| {name} | {' | '.join(cells)} | {per_step(data):.2f} |"
         yield from (
             "",
-            "At half the limit of the elements the two are equal. Close to the limit of the mesh CD-Lagrange is better on bars, whose",
+            "At half the limit of the elements the two are equal. Close to the limit of the mesh CD-Lagrange is better on bars and",
         )
-        yield "the Hertz disc (why was not traced); on cylinders and stack there is little between them. A step costs the same: the rows are few. The table above counts all methods in its first column, and only"
-        yield "penalties after it."
+        yield "on the Hertz disc (why was not traced); on cylinders and stack there is little between them. A step costs the same: the"
+        yield "rows are few. In the first table the first column counts all methods, the others only penalties."
     else:
         yield from ("", "CD-Lagrange is not in this version: the comparison with it is made once it is.")
     yield ""
