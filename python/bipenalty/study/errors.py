@@ -21,7 +21,7 @@ Floats = npt.NDArray[np.float64]
 #: Each measure in words; all are free of units.
 MEASURES = {
     "force": "relative L2 error of the total contact force after a moving average",
-    "impulse": "largest error of the cumulated impulse, after that average, over the impulse of the whole run",
+    "impulse": "largest error of the cumulated impulse, averaged likewise, over the last",
     "displacement": "relative L2 error of the displacements in space and time",
     "energy": "energy at the end over that at the start, less 1",
     "penetration": "deepest penetration over the length of the case",

@@ -58,7 +58,7 @@ def rates(data: xr.Dataset) -> xr.Dataset:
     >>> import bipenalty as bp
     >>> from bipenalty import study
     >>> data = study.work_precision(bp.exact.ThrownBar(), {"ours": bp.Bipenalty()}, [20, 40, 80, 160], repeats=1)
-    >>> table = rates(data).sel({"method": "ours", "dt": "0.5 element", "measure": "impulse"})
+    >>> table = rates(data).sel({"method": "ours", "dt": "0.98 assembled", "measure": "impulse"})
     >>> bool(0.7 < table["rate"] < 1.3), float(table["expected"])
     (True, 1.0)
     """
