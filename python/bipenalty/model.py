@@ -120,12 +120,12 @@ class Model:
 
     @property
     def displacement(self) -> FloatArray:
-        """Displacement u_n, read-only (N, 2) view, m; ask again after a step."""
+        """Displacement u_n, read-only (N, 2) view (a copy where nodes were renumbered), m; ask again after a step."""
         return self._run.displacement
 
     @property
     def velocity(self) -> FloatArray:
-        """Velocity v_{n-1/2}, read-only (N, 2) view, m/s; ask again after a step."""
+        """Velocity v_{n-1/2}, read-only (N, 2) view (a copy where nodes were renumbered), m/s; ask again after a step."""
         return self._run.velocity
 
     @property

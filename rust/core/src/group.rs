@@ -168,7 +168,7 @@ impl Group {
                 next: of(&state.displacement),
             };
             if due.snapshot {
-                let one = |values| state.one(values, number);
+                let one = |values| lane.model.order.flat_outward(state.one(values, number));
                 run.snapshot(one(&state.other), &one(&self.before), &one(&state.velocity));
             }
             let seen = look.then(|| Seen { sums: &self.sums, width, lane: number, inverted: shapes[number] });

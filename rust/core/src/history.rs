@@ -37,7 +37,7 @@ impl Peaks {
     }
 }
 
-/// Displacement and velocity at one instant.
+/// Displacement and velocity at one instant, in the scene's node numbers.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
     /// Step.

@@ -24,6 +24,7 @@ pub mod material;
 pub mod mesh;
 pub mod model;
 pub mod nodal_sums;
+pub mod order;
 pub mod outcome;
 mod pace;
 pub mod penalty;

@@ -80,8 +80,8 @@ fn pair(
     let secondary_length = nodes.iter().map(length).sum::<f64>() / nodes.len() as f64;
     let young = primary_body.map_or(0.0, |b| model.bodies[b as usize].young).max(secondary.young);
     let node_stiffness = if primary_body.is_some() { HashMap::new() } else { node_stiffness(secondary) };
-    let secondary = nodes;
-    Pair { contact, secondary_body, primary_body, secondary, secondary_length, primary, young, node_stiffness }
+    let (secondary, order) = (nodes, model.order.clone());
+    Pair { contact, secondary_body, primary_body, secondary, secondary_length, primary, young, node_stiffness, order }
 }
 
 /// Mean of the two edges that meet at each node.

@@ -12,6 +12,7 @@ use crate::critical_step::lanczos::Largest;
 use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::lower;
+use crate::order::Order;
 use crate::scene::{BodySpec, Scene};
 use crate::stiffness::BlockCsr;
 use crate::stiffness::assembly::assemble;
@@ -30,6 +31,8 @@ pub struct Contact {
 /// K, M, surfaces and rows: shared by all runs, changed by none.
 #[derive(Debug, Clone)]
 pub struct Model {
+    /// The scene's node numbers; all else here has the model's own.
+    pub order: Order,
     /// Reference coordinates X (m).
     pub points: Vec<[f64; 2]>,
     /// Bodies.
@@ -61,6 +64,7 @@ impl Model {
     /// Anything in the scene that is out of its bounds; see the messages.
     pub fn new(scene: Scene) -> Result<Self> {
         let mut model = Self {
+            order: Order::default(),
             points: Vec::new(),
             bodies: Vec::new(),
             stiffness: Arc::default(),
@@ -81,10 +85,13 @@ impl Model {
             model.add_body(body, &mut stiffness)?;
         }
         model.stiffness = Arc::new(stiffness);
+        for (node, _) in model.linear.iter_mut().flat_map(|row| &mut row.entries) {
+            *node = model.order.inner(*node as usize) as u32;
+        }
         for support in &scene.supports {
             let object = format!("support of \"{}\"", support.body);
             let nodes = lower::find_body(&model.bodies, &support.body, &object)?.1.nodes.clone();
-            support.apply(&mut model.inverse_mass[nodes])?;
+            support.apply(nodes, &model.order, &mut model.inverse_mass)?;
         }
         let holds = |w: &[f64; 2]| w.contains(&0.0);
         model.held = (0..).zip(&model.inverse_mass).filter(|(_, w)| holds(w)).map(|(node, _)| node).collect();
@@ -106,12 +113,13 @@ impl Model {
             return Err(Error::bound(&object, "thickness", body.thickness, "> 0 and finite", remedy));
         }
         let in_body = |e: Error| Error::Input(format!("{object}: {e}"));
-        let (mesh, _) = body.mesh.checked().map_err(in_body)?;
-        let loops = boundary_loops(&mesh).map_err(in_body)?;
+        let (mut mesh, _) = body.mesh.checked().map_err(in_body)?;
+        let mut loops = boundary_loops(&mesh).map_err(in_body)?;
+        let first = self.points.len();
+        self.order.add(first, &mut mesh, &mut loops);
         let parts = assemble(&mesh, &body.material, body.thickness);
         let edge_stiffness = edge_stiffness(&mesh, &loops, &body.material, body.thickness);
 
-        let first = self.points.len();
         let nodes = first..first + mesh.points.len();
         stiffness.append(parts.stiffness);
         self.inverse_mass.extend(parts.mass.iter().map(|m| [1.0 / m; 2]));

@@ -138,6 +138,7 @@ impl Judge<'_> {
     fn place(&self) -> String {
         let Some(node) = self.watch.stiffest.first().map(|row| row.first_node() as usize) else { return String::new() };
         let body = self.model.bodies.iter().find(|b| b.nodes.contains(&node));
-        body.map_or(String::new(), |b| format!(" at node {} of \"{}\"", node - b.nodes.start, b.name))
+        let number = self.model.order.outer(node);
+        body.map_or(String::new(), |b| format!(" at node {} of \"{}\"", number - b.nodes.start, b.name))
     }
 }

@@ -150,7 +150,7 @@ impl Run {
         }
     }
 
-    /// Keeps displacement and velocity at t_n.
+    /// Keeps displacement and velocity at t_n; the arrays have the scene's node numbers.
     pub fn snapshot(&mut self, displacement: Vec<f64>, before: &[f64], after: &[f64]) {
         let velocity = before.iter().zip(after).map(|(a, b)| 0.5 * (a + b)).collect();
         self.history.snapshots.push(Snapshot { step: self.steps, displacement, velocity });

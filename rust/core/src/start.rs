@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::model::Model;
 
-/// Initial state of all nodes, two values a node.
+/// Initial state of all nodes, two values a node, in the model's node numbers.
 #[derive(Debug)]
 pub struct Start {
     /// Velocity v_0 (m/s).
@@ -21,7 +21,7 @@ pub struct Start {
 }
 
 impl Start {
-    /// A start of a model and of its variants.
+    /// A start of a model and of its variants; the arrays have the scene's node numbers.
     ///
     /// # Errors
     /// Arrays of the wrong length, values that are not finite.
@@ -36,6 +36,7 @@ impl Start {
                 return Err(Error::bound("initial state", &what, values[i], "finite", "mend the array"));
             }
         }
+        let (velocity, displacement) = (model.order.flat_inward(velocity), model.order.flat_inward(displacement));
         let product = |node: usize| {
             model.stiffness.row(node).fold([0.0; 2], |sum, (column, k)| {
                 let force = k.times([displacement[2 * column], displacement[2 * column + 1]]);

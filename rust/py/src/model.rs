@@ -71,16 +71,16 @@ impl Model {
         worst_stiffening(&self.inner)
     }
 
-    /// Reference coordinates of all nodes, (n, 2) in m.
+    /// Reference coordinates of all nodes of the scene, (n, 2) in m.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        arrays::pairs(py, &self.inner.points)
+        arrays::pairs(py, &self.inner.order.outward(&self.inner.points))
     }
 
     /// Lumped mass of each node, (n,) in kg.
     #[getter]
     fn mass<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.inner.mass)
+        PyArray1::from_slice(py, &self.inner.order.outward(&self.inner.mass))
     }
 
     /// Names of the contacts, "secondary on primary".

@@ -10,6 +10,7 @@ use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arrays;
 use crate::errors::to_python;
 use crate::isa::named;
 use crate::method::MethodIn;
@@ -111,13 +112,13 @@ impl Run {
         })
     }
 
-    /// Displacement u_n, a read-only (n, 2) view in m; valid until the next step.
+    /// Displacement u_n, a read-only (n, 2) view in m, valid until the next step; a copy where nodes were renumbered.
     #[getter]
     fn displacement<'py>(this: Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         view(this, |group| &group.state.displacement)
     }
 
-    /// Velocity v_{n-1/2}, a read-only (n, 2) view in m/s; the step writes into it.
+    /// Velocity v_{n-1/2}, a read-only (n, 2) view in m/s, which the step writes into; a copy where nodes were renumbered.
     #[getter]
     fn velocity<'py>(this: Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         view(this, |group| &group.state.velocity)
@@ -132,7 +133,12 @@ impl Run {
 
 fn view<'py>(this: Bound<'py, Run>, get: impl Fn(&Group) -> &[f64]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let run = this.borrow();
-    let values = get(&run.group);
+    let (values, order) = (get(&run.group), &run.group.model.order);
+    if !order.is_kept() {
+        let copy = arrays::pairs(this.py(), &order.outward(values.as_chunks().0))?;
+        copy.readwrite().make_nonwriteable();
+        return Ok(copy);
+    }
     let shape = [values.len() / 2, 2];
     let array =
         ArrayView2::from_shape(shape, values).map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;

@@ -77,7 +77,8 @@ pub fn check_overlap(model: &Model, displacement: Lane) -> Result<()> {
         let Some((body, Overlap { node, depth })) = found else { continue };
         if depth > contact.overlap_tolerance {
             let [first, second] = &contact.names;
-            let place = node.map_or("the inside".into(), |n| format!("node {}", n as usize - body.nodes.start));
+            let number = |n: u32| model.order.outer(n as usize) - body.nodes.start;
+            let place = node.map_or("the inside".into(), |n| format!("node {}", number(n)));
             let what = format!("overlap at {place} of \"{}\"", body.name);
             let bound = format!("<= {:.3e} m at the start", contact.overlap_tolerance);
             let object = format!("contact \"{first}\" on \"{second}\"");

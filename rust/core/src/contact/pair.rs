@@ -7,6 +7,7 @@ use super::gap::{Gap, dot, from_to, long_normal, unit_normal};
 use super::posed::Posed;
 use super::surface::{Surface, position};
 use crate::lane::Lane;
+use crate::order::Order;
 use crate::row::{Behind, Row};
 
 /// A secondary node with its neighbours along its own surface.
@@ -53,6 +54,8 @@ pub struct Pair {
     pub young: f64,
     /// `K A^2/V` (N/m) of the elements behind the secondary nodes, kept where the primary has no elements.
     pub node_stiffness: HashMap<u32, f64>,
+    /// The scene's node numbers, for messages.
+    pub order: Order,
 }
 
 impl Pair {

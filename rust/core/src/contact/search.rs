@@ -142,7 +142,10 @@ fn check_finite(pair: &Pair, displacement: Lane) -> Result<()> {
     };
     let mut nodes = pair.secondary.iter().map(|s| s.node).chain(primary.iter().copied());
     match nodes.find(|node| !displacement.at(*node).iter().all(|u| u.is_finite())) {
-        Some(node) => Err(Error::Run(Kind::NotFinite, format!("displacement of node {node} is not finite"))),
+        Some(node) => {
+            let number = pair.order.outer(node as usize);
+            Err(Error::Run(Kind::NotFinite, format!("displacement of node {number} is not finite")))
+        }
         None => Ok(()),
     }
 }
