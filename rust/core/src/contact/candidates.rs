@@ -31,7 +31,10 @@ impl Candidates {
     /// Those of them that may be inside after surfaces have travelled so far (m) since the search.
     pub fn within(&self, travel: f64) -> impl Iterator<Item = (u32, &[u32])> {
         // What is not a number passes nobody over.
-        self.iter().zip(&self.clear).filter(move |(_, clear)| !(**clear > travel)).map(|(candidate, _)| candidate)
+        self.iter()
+            .zip(&self.clear)
+            .filter(move |(_, clear)| travel.is_nan() || **clear <= travel)
+            .map(|(candidate, _)| candidate)
     }
 
     /// Room for every node with a few segments.
