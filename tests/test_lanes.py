@@ -40,12 +40,16 @@ def test_an_instruction_set_can_be_asked_for(isa: str) -> None:
     scene = scenes.small_cylinders()
     first, again = (bp.Model(scene, bp.Bipenalty(), isa=isa).run(0.05) for _ in range(2))
     np.testing.assert_array_equal(first.contact_force, again.contact_force)
+    swept = bp.sweep(scene, [bp.Bipenalty()] * 3, 0.05, isa=isa)
+    assert (swept.impulse == first.impulse).all()
     usual = bp.Model(scene, bp.Bipenalty()).run(0.05)
     assert first.impulse == pytest.approx(usual.impulse, rel=1e-9)
 
 
 def test_an_instruction_set_that_is_not_there() -> None:
     """The message names those that are."""
+    with pytest.raises(bp.InputError, match=r"'sse9'.*baseline"):
+        bp.sweep(scenes.small_cylinders(), [bp.Bipenalty()], 0.1, isa="sse9")
     with pytest.raises(bp.InputError, match=r'"sse9".*baseline'):
         bp.Model(scenes.small_cylinders(), isa="sse9")
 

@@ -43,7 +43,7 @@ def drive(scene: Scene, lowered: Lowered, plans: Plans, how: How) -> xr.Dataset:
     if how.store is not None:
         names = [axis.dim for axis in plans.axes if "/" in axis.dim]
         checks.within("sweep", "axis", names, not names, 'without "/" in a store', "rename the body")
-        spec = (plans.axes, plans.method, plans.t_end, plans.dt, plans.safety, how.allow_unstable)
+        spec = (plans.axes, plans.method, plans.t_end, plans.dt, plans.safety, how.allow_unstable, how.isa)
         attrs["fingerprint"] = fingerprint(scene, *spec, attrs)
         # Blocks are what they were when the store was made.
         chunk = attrs["chunk"] = kind.chunk_of(how.store) or chunk
@@ -59,7 +59,14 @@ def drive(scene: Scene, lowered: Lowered, plans: Plans, how: How) -> xr.Dataset:
     layout = Layout(dims, shape, block_shape(shape, chunk), samples, time_dim)
     store: Store = kind(layout, coordinates(plans, layout, dts, how.every), attrs, how.store)
     options = Options(
-        how.allow_unstable, how.displacement_limit, how.every, samples, how.threads, package_version(), uuid.uuid4().hex
+        how.allow_unstable,
+        how.displacement_limit,
+        how.every,
+        samples,
+        how.threads,
+        package_version(),
+        uuid.uuid4().hex,
+        how.isa,
     )
     with store.opened():
         lost, interrupted = fill(store, plans, scene, lowered, options, how, mean)

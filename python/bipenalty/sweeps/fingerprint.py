@@ -36,7 +36,7 @@ def _feed(digest: Any, value: Any) -> None:
         _put(digest, "class", value.__qualname__.encode())
     elif isinstance(value, Method):
         rules = (value.stiffness_rule, value.kappa_rule, value.mass_rule, value.damping_rule, value.label)
-        _feed(digest, (type(value).__qualname__, rules))
+        _feed(digest, (type(value).__qualname__, rules, getattr(value, "enforcement_rule", None)))
     elif dataclasses.is_dataclass(value):
         fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
         _feed(digest, (type(value).__qualname__, fields))

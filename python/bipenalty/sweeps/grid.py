@@ -35,6 +35,7 @@ def grid(
     in_flight: int | None = None,
     store: str | os.PathLike[str] | None = None,
     show_progress: bool | None = None,
+    isa: str = "auto",
 ) -> xr.Dataset:
     """Run a scene for every combination of the values of some axes; a run that fails or cannot start is an entry.
 
@@ -51,7 +52,7 @@ def grid(
         "top.offset": pairs (dx, dy), m, by which it is moved before the start.
     method : class or instance whose parameters vary, the others as they are there; `Bipenalty` unless given.
     dt : as for `Model`; a rule is taken anew for every combination of factors on young and density.
-    safety, allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress :
+    safety, allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress, isa :
         as for `sweep`.
 
     Returns
@@ -76,7 +77,7 @@ def grid(
     ({'ps': 3, 's2': 3}, 'refused')
     """
     chosen = how(
-        allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress
+        allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress, isa
     )
     ready = lowered(scene)
     listed: Any = axes  # whatever the caller has put there

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from bipenalty import checks
+from bipenalty import _core, checks
 from bipenalty.sweeps import memory
 from bipenalty.sweeps.executors import in_flight_of
 
@@ -25,6 +25,7 @@ class How:
     in_flight: int | None
     store: Path | None
     show_progress: bool | None
+    isa: str = "auto"
 
 
 def how(
@@ -37,6 +38,7 @@ def how(
     in_flight: int | None,
     store: str | os.PathLike[str] | None,
     show_progress: bool | None,
+    isa: str = "auto",
 ) -> How:
     """The keywords, checked.
 
@@ -55,7 +57,10 @@ def how(
         None if in_flight is None else checks.whole("sweep", "in_flight", in_flight, 1),
         None if store is None else Path(store).absolute(),
         show_progress,
+        isa,
     )
+    sets = ("auto", *_core.instruction_sets())
+    checks.within("sweep", "isa", repr(isa), isa in sets, f"one of {sets}", 'leave it at "auto"')
     able = executor is None or hasattr(executor, "submit")
     remedy = "give a ProcessPoolExecutor, client.get_executor() of dask, or the like"
     checks.within("sweep", "executor", type(executor).__name__, able, "an executor of concurrent.futures", remedy)

@@ -34,6 +34,7 @@ def sweep(
     in_flight: int | None = None,
     store: str | os.PathLike[str] | None = None,
     show_progress: bool | None = None,
+    isa: str = "auto",
 ) -> xr.Dataset:
     """Run a scene with each method; a failed run is a labelled entry, never an exception for the rest.
 
@@ -53,6 +54,7 @@ def sweep(
     store : path ending in .zarr or .nc. The same call goes on where one that was killed has ended, and the result is
         that of one that was not. A .zarr store is opened, not loaded; seconds are not stored.
     show_progress : None for a bar on a terminal only.
+    isa : instruction set, as for `Model`: named, a run is the same to the last bit on every machine that has it.
 
     Returns
     -------
@@ -76,7 +78,7 @@ def sweep(
     """
     axis = method_axis("run", methods, "sweep")
     chosen = how(
-        allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress
+        allow_unstable, displacement_limit, histories, threads, executor, chunk, in_flight, store, show_progress, isa
     )
     ready = lowered(scene)
     plans = Plans(ready.core, [axis], len(scene.bodies), None, t_end, dt, safety)

@@ -38,6 +38,7 @@ class Options:
     threads: int
     version: str
     call: str
+    isa: str = "auto"
 
 
 @dataclass(frozen=True)
@@ -128,6 +129,7 @@ def _start(scene: Lowered, plans: Sequence[Plan], options: Options) -> tuple[Any
         allow_unstable=options.allow_unstable,
         displacement_limit=options.displacement_limit,
         every=options.every,
+        isa=options.isa,
     )
     return batch, places, refused
 
