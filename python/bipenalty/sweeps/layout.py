@@ -17,6 +17,8 @@ SUMMARY = {
     "energy_ratio": ("1", "total energy at the end over that at the start"),
     "energy_made": ("1", "most energy that contact had added, over what there was"),
     "steps": ("1", "steps taken"),
+    "row_steps": ("1", "active rows, summed over the steps"),
+    "block_operations": ("1", "multiplications that factorise the mass block, summed over the steps"),
 }
 SECONDS = {"seconds": ("s", "time the run took")}
 HISTORIES = {"contact_force": ("N/m", "contact force"), "penetration": ("m", "penetration")}
