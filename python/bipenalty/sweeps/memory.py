@@ -53,8 +53,8 @@ def sweep_memory(
     -------
     >>> import bipenalty as bp
     >>> scene = bp.Scene([bp.Body("bar", bp.mesh.rectangle(1, 1, 4, 4), bp.LinearElastic(900, 0, 1))])
-    >>> bp.sweep_memory(scene, runs=10_000, steps=2_000) / 1e6
-    22.1248
+    >>> 1e6 < bp.sweep_memory(scene, runs=10_000, steps=2_000) < 100e6  # more for more processors
+    True
     """
     every = stride(histories)
     count, length = checks.whole("sweep_memory", "runs", runs, 1), checks.whole("sweep_memory", "steps", steps, 1)
