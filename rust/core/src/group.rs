@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use crate::contact::travel::Travel;
 use crate::crew::Crew;
+use crate::due::Due;
 use crate::energy::After;
 use crate::error::Result;
 use crate::lane::Lane;
 use crate::model::Model;
 use crate::nodal_sums::{self, NodalSums, nodal_sums};
 use crate::pace::Pace;
-use crate::run::{Due, Run, RunSpec, Seen};
+use crate::run::{Run, RunSpec, Seen};
 use crate::shape;
 use crate::state::State;
 use crate::step::{Stepping, step};

@@ -10,6 +10,7 @@ pub mod constraint;
 pub mod contact;
 pub mod crew;
 pub mod critical_step;
+pub mod due;
 pub mod element;
 pub mod ended;
 pub mod energy;

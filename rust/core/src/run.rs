@@ -1,6 +1,7 @@
 //! A run: what is observed and watched of one lane, and how it ends.
 
 use crate::contact::crossing;
+use crate::due::Due;
 use crate::energy::{self, After};
 use crate::error::short;
 use crate::history::{History, Record, Snapshot};
@@ -38,31 +39,6 @@ pub struct Run {
     pub seconds: f64,
     displacement_limit: f64,
     momentum: Vec<[f64; 2]>,
-}
-
-/// What is to be seen of a step, known before it.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Due {
-    /// Energies are recorded.
-    pub sample: bool,
-    /// The state is looked at.
-    pub look: bool,
-    /// So are the shapes of the elements.
-    pub shapes: bool,
-    /// A snapshot is taken.
-    pub snapshot: bool,
-}
-
-impl Due {
-    /// What is due to either of two runs.
-    pub fn or(self, other: Self) -> Self {
-        Self {
-            sample: self.sample || other.sample,
-            look: self.look || other.look,
-            shapes: self.shapes || other.shapes,
-            snapshot: self.snapshot || other.snapshot,
-        }
-    }
 }
 
 /// What a look at a lane finds: its sums over the nodes of each body, and whether an element has no area left.
