@@ -1,42 +1,21 @@
 """The charts example, run as a user runs it: its files, its report and what its verdicts are made of."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bipenalty as bp
+import example
 
-SCRIPT = Path(__file__).resolve().parents[1] / "examples" / "charts.py"
 CASES = ("thrown_bar", "cylinders")
-
-
-def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the example in a folder of its own."""
-    return subprocess.run(
-        [sys.executable, "-W", "error", str(SCRIPT), *arguments],
-        cwd=folder,
-        env={
-            **os.environ,
-            "MPLBACKEND": "Agg",
-            "MPLCONFIGDIR": str(folder / "matplotlib"),
-            "PYTHONIOENCODING": "utf-8",
-        },
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Folder and terminal output of a quick run."""
     folder = tmp_path_factory.mktemp("charts")
-    done = run(folder, "--quick")
+    done = example.run("charts.py", folder, "--quick")
     assert done.returncode == 0, done.stderr
     return folder, done.stdout
 
@@ -78,6 +57,6 @@ def test_quick_runs_converge(quick: tuple[Path, str]) -> None:
 
 @pytest.mark.slow
 def test_full_charts_hold_their_own_numbers(tmp_path: Path) -> None:
-    done = run(tmp_path, "--repeats", "1", "--report", "charts.md")
+    done = example.run("charts.py", tmp_path, "--repeats", "1", "--report", "charts.md")
     assert done.returncode == 0, done.stderr
     assert "PASS" in (tmp_path / "charts.md").read_text(encoding="utf-8")

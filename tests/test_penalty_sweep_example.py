@@ -1,39 +1,24 @@
 """The penalty sweep example, run as a user runs it: its files, their columns and contents, its summary."""
 
 import csv
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bipenalty as bp
+import example
 
-SCRIPT = Path(__file__).resolve().parents[1] / "examples" / "penalty_sweep.py"
 NUMBERS = ["max_penetration", "max_displacement", "peak_force", "impulse", "energy_ratio"]
 COLUMNS = ["method", "ps", "D", *NUMBERS, "failed", "reason", "seconds"]
 RUNS = 8 * 8  # methods times p_s, one a decade
-
-
-def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the example in a folder of its own."""
-    return subprocess.run(
-        [sys.executable, "-W", "error", str(SCRIPT), *arguments],
-        cwd=folder,
-        env={**os.environ, "MPLBACKEND": "Agg", "MPLCONFIGDIR": str(folder / "matplotlib")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Folder and terminal output of a quick run."""
     folder = tmp_path_factory.mktemp("sweep")
-    done = run(folder, "--quick")
+    done = example.run("penalty_sweep.py", folder, "--quick")
     assert done.returncode == 0, done.stderr
     return folder / "out", done.stdout
 
@@ -81,6 +66,6 @@ def test_summary_names_cause_and_window(quick: tuple[Path, str]) -> None:
 
 @pytest.mark.slow
 def test_full_study_holds_its_own_numbers(tmp_path: Path) -> None:
-    done = run(tmp_path, "--out", "elsewhere")
+    done = example.run("penalty_sweep.py", tmp_path, "--out", "elsewhere")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "elsewhere" / "force.png").is_file()

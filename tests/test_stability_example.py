@@ -1,45 +1,24 @@
 """The stability example, run as a user runs it: its files, what they hold, its table; and the helpers it is made of."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bipenalty as bp
+import example
 from bipenalty import force_error
 from bipenalty.plot.restitution_figure import restitution
 from bipenalty.plot.stability_figure import stability
 
-SCRIPT = Path(__file__).resolve().parents[1] / "examples" / "stability.py"
 FIGURES = {"stability_ps.png", "stability_R_zeta.png", "stability_dt.png", "restitution.png"}
-
-
-def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the example in a folder of its own."""
-    return subprocess.run(
-        [sys.executable, "-W", "error", str(SCRIPT), *arguments],
-        cwd=folder,
-        env={
-            **os.environ,
-            "MPLBACKEND": "Agg",
-            "MPLCONFIGDIR": str(folder / "matplotlib"),
-            "PYTHONIOENCODING": "utf-8",
-        },
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Folder and terminal output of a quick run."""
     folder = tmp_path_factory.mktemp("stability")
-    done = run(folder, "--quick")
+    done = example.run("stability.py", folder, "--quick")
     assert done.returncode == 0, done.stderr
     return folder / "out", done.stdout
 
@@ -115,6 +94,6 @@ def test_restitution_figure_marks_the_published_choice() -> None:
 
 @pytest.mark.slow
 def test_full_study_holds_its_own_numbers(tmp_path: Path) -> None:
-    done = run(tmp_path, "--out", "elsewhere")
+    done = example.run("stability.py", tmp_path, "--out", "elsewhere")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "elsewhere" / "stability_ps.png").is_file()
