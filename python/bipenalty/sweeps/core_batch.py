@@ -39,5 +39,4 @@ def start(
 
 def scaled_limit(model: _core.Model, rule: str, young: Sequence[float], density: Sequence[float]) -> float:
     """Critical time step (s) by a rule, "element" or "assembled", with each body's constants scaled by a factor."""
-    element, assembled = model.scaled_critical_dts(list(young), list(density), rule == "assembled")
-    return element if rule == "element" else assembled
+    return model.scaled_critical_dt(list(young), list(density), rule == "assembled")

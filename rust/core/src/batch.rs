@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::crew::{Crew, LARGE};
+use crate::crew::Crew;
 use crate::ended::{Ended, Summary};
 use crate::error::Result;
 use crate::group::{Group, WIDTHS};
@@ -59,6 +59,11 @@ impl Batch {
         Self { model, isa, width, specs, next, finished, ended, workers: Mutex::default() }
     }
 
+    /// The model of all runs, or what they are variants of.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
     /// Whether a run can begin.
     ///
     /// # Errors
@@ -93,8 +98,7 @@ impl Batch {
             let mut group = Group::new(self.model.clone(), self.isa, 1);
             // Fewer large runs than threads: the threads left over share their steps. Without them it goes on alone.
             let spare = threads / self.specs.len().max(1);
-            group.crew =
-                if self.model.points.len() < LARGE { Crew::default() } else { Crew::new(spare).unwrap_or_default() };
+            group.crew = Crew::fitting(self.model.points.len(), spare).unwrap_or_default();
             workers.push(Arc::new(Mutex::new(Worker { group, numbers: Vec::new() })));
         }
         workers.clone()

@@ -7,7 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::error::{Error, Result};
 
 /// Nodes from which a step is long enough to share: below, handing it out costs what it saves.
-pub const LARGE: usize = 50_000;
+const LARGE: usize = 50_000;
 
 /// Threads for one model; none but the caller's own unless asked for.
 #[derive(Debug, Clone, Default)]
@@ -27,6 +27,14 @@ impl Crew {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|e| Error::Input(format!("run: threads = {threads}, the system gives none: {e}")))?;
         Ok(Self { pool: Some(Arc::new(pool)) })
+    }
+
+    /// So many threads for a large model, the caller's own only for a smaller one.
+    ///
+    /// # Errors
+    /// As for `new`.
+    pub fn fitting(nodes: usize, threads: usize) -> Result<Self> {
+        Self::new(if nodes < LARGE { 1 } else { threads })
     }
 
     /// Number of threads.

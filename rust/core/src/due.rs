@@ -5,7 +5,7 @@
 pub struct Due {
     /// Energies are recorded.
     pub sample: bool,
-    /// The state is looked at.
+    /// The state is looked at, as it is with every sample.
     pub look: bool,
     /// So are the shapes of the elements.
     pub shapes: bool,

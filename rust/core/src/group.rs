@@ -141,8 +141,7 @@ impl Group {
 
     fn one_step(&mut self) {
         let all = self.runs.iter().map(Run::due).fold(Due::default(), Due::or);
-        let look = all.look || all.sample;
-        if look || all.snapshot {
+        if all.look || all.snapshot {
             if self.before.len() != self.state.velocity.len() {
                 self.before = Aligned::zeros(self.state.velocity.len());
             }
@@ -157,7 +156,7 @@ impl Group {
             &mut self.state,
             &mut self.lanes,
         );
-        let shapes = self.look(look, all.shapes);
+        let shapes = self.look(all.look, all.shapes);
         let width = self.width();
         for (number, (run, lane)) in self.runs.iter_mut().zip(&self.lanes).enumerate() {
             let of = |values| Lane::new(values, width, number);
@@ -172,7 +171,7 @@ impl Group {
                 let one = |values| lane.model.order.flat_outward(state.one(values, number));
                 run.snapshot(one(&state.other), &one(&self.before), &one(&state.velocity));
             }
-            let seen = look.then(|| Seen { sums: &self.sums, width, lane: number, inverted: shapes[number] });
+            let seen = all.look.then(|| Seen { sums: &self.sums, width, lane: number, inverted: shapes[number] });
             run.observe(lane, &after, due, seen);
         }
     }

@@ -100,26 +100,24 @@ impl Run {
 
     /// Takes in a step: rows and forces always, the state as far as it has been `seen`.
     pub fn observe(&mut self, lane: &Stepping, after: &After, due: Due, seen: Option<Seen>) {
-        let n = self.steps;
+        let (n, last) = (self.steps, self.is_last());
         self.steps += 1;
         if let Some(error) = &lane.fault {
             self.fail(lane, after, error.kind(), &error.to_string());
             return;
         }
         self.watch.step(&lane.model, lane.dt, &lane.rows, &lane.forces, after.velocity);
-        let keep = self.record.every > 0 && (self.end == Some(self.steps) || n.is_multiple_of(self.record.every));
+        let keep = self.record.every > 0 && (last || n.is_multiple_of(self.record.every));
         self.history.observe(&lane.model, n, lane.dt, &lane.rows, &lane.forces, keep);
-        if let Some(seen) = seen.filter(|_| due.look || due.sample) {
+        if let Some(seen) = seen.filter(|_| due.look) {
             let sums = seen.sums.iter().skip(seen.lane).step_by(seen.width);
             let e = energy::sample(&lane.model, lane.dt, sums, after, &lane.rows, &lane.forces, &mut self.momentum);
             if due.sample {
                 self.history.sample(n, e, self.watch.damping_loss, &self.momentum);
             }
-            if due.look {
-                self.watch.sample(&e);
-                self.history.peaks.see_displacement(e.max_displacement);
-                self.look_at(lane, after, e.max_displacement, due.shapes && seen.inverted);
-            }
+            self.watch.sample(&e);
+            self.history.peaks.see_displacement(e.max_displacement);
+            self.look_at(lane, after, e.max_displacement, due.shapes && seen.inverted);
         }
         if self.watch.passed(RUNAWAY) {
             self.fail(lane, after, Kind::EnergyMade, "energy ran away");
@@ -140,9 +138,7 @@ impl Run {
             let seen = format!("displacement {found} m passed the limit {limit} m");
             self.fail(lane, after, Kind::DisplacementLimit, &seen);
         } else if let Some((step, most)) = too_fast(lane, after) {
-            let (step, most) = (short(step), short(most));
-            let seen = format!("surfaces moved {step} m in one step, contact follows {most} m: reduce dt or speed;");
-            self.fail(lane, after, Kind::ContactMissed, &seen);
+            self.fail(lane, after, Kind::ContactMissed, &crossing::missed(step, most));
         } else if inverted {
             let element = first_inverted(&lane.model, after.displacement).unwrap_or_else(|| "an element".into());
             self.fail(lane, after, Kind::ElementInverted, &format!("{element} has no area left"));

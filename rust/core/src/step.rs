@@ -109,15 +109,14 @@ impl Stepping {
     /// Rows active at a displacement, [node][axis][lane], with their penalties; there must be none yet.
     fn find_rows(&mut self, travel: &mut Travel, displacement: &[f64], lanes: usize, lane: usize) -> Result<()> {
         let (model, u) = (&self.model, Lane::new(displacement, lanes, lane));
-        if self.search.keep(&model.pairs, &model.points, u, |body| travel.far(body, lane))? {
+        if self.search.keep(&model.pairs, &model.points, u, |pair| travel.of(pair, lane))? {
             travel.restart(lane, displacement);
         }
         for (i, linear) in model.linear.iter().enumerate() {
             self.rows.push(linear.row((model.contacts.len() + i) as u32, u));
         }
         for (pair, candidates) in model.pairs.iter().zip(&self.search.candidates) {
-            let travelled = travel.far(Some(pair.secondary_body), lane) + travel.far(pair.primary_body, lane);
-            pair.rows(candidates, travelled, &model.points, u, &mut self.rows);
+            pair.rows(candidates, travel.of(pair, lane), &model.points, u, &mut self.rows);
         }
         for row in &mut self.rows {
             let known = Known { row, inverse_mass: &model.inverse_mass, dt: self.dt };

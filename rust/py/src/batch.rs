@@ -17,7 +17,6 @@ use crate::run_spec::{RunIn, record, start};
 #[pyclass(frozen, module = "bipenalty._core")]
 pub struct Batch {
     inner: bipenalty::batch::Batch,
-    model: std::sync::Arc<bipenalty::model::Model>,
 }
 
 #[pymethods]
@@ -42,17 +41,13 @@ impl Batch {
         isa: &str,
     ) -> PyResult<Self> {
         let start = start(py, &model.inner, &velocity, &displacement)?;
-        let common = RunSpec {
-            allow_unstable,
-            displacement_limit: displacement_limit.unwrap_or(f64::INFINITY),
-            record: record(every, energy_every, Vec::new()),
-            ..RunSpec::new(crate::method::none(), 0.0, start)
+        let (displacement_limit, bodies) = (displacement_limit.unwrap_or(f64::INFINITY), model.inner.bodies.len());
+        let spec = |run: RunIn| {
+            let record = record(every, energy_every, Vec::new());
+            RunSpec { allow_unstable, displacement_limit, record, ..run.lower(start.clone(), bodies) }
         };
-        let bodies = model.inner.bodies.len();
-        let specs = runs.into_iter().map(|run| run.lower(&common, bodies)).collect();
-        let isa = named(py, isa)?;
-        let model = model.inner.clone();
-        Ok(Self { inner: bipenalty::batch::Batch::new(model.clone(), isa, lanes, specs), model })
+        let specs = runs.into_iter().map(spec).collect();
+        Ok(Self { inner: bipenalty::batch::Batch::new(model.inner.clone(), named(py, isa)?, lanes, specs) })
     }
 
     /// Raises InputError unless a run can begin.
@@ -79,7 +74,8 @@ impl Batch {
 
     /// Everything observed of one run, with the steps it was to take and its seconds; None if its thread died.
     fn observations<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let look = |run: &bipenalty::ended::Ended| observations::all(py, &self.model, &run.summary, &run.history);
+        let look =
+            |run: &bipenalty::ended::Ended| observations::all(py, self.inner.model(), &run.summary, &run.history);
         self.inner.look(index, look).transpose()
     }
 }

@@ -57,9 +57,3 @@ impl<'py> FromPyObject<'_, 'py> for MethodIn {
         Ok(Self(Method { stiffness, kappa, mass, damping, enforcement }))
     }
 }
-
-/// Stands for a method where each run brings its own.
-pub fn none() -> Method {
-    let (stiffness, enforcement) = (Stiffness::Factor(0.0), Enforcement::Penalty);
-    Method { stiffness, kappa: f64::INFINITY, mass: Mass::None, damping: Damping::None, enforcement }
-}

@@ -51,19 +51,11 @@ impl Model {
         py.detach(|| assembled_bound(&self.inner))
     }
 
-    /// The same two limits (s) with factors of each body's modulus and density; infinite for the assembled matrix unless
-    /// that is asked for.
-    fn scaled_critical_dts(
-        &self,
-        py: Python<'_>,
-        young: Vec<f64>,
-        density: Vec<f64>,
-        assembled: bool,
-    ) -> PyResult<(f64, f64)> {
+    /// Either limit (s) with factors of each body's modulus and density.
+    fn scaled_critical_dt(&self, py: Python<'_>, young: Vec<f64>, density: Vec<f64>, assembled: bool) -> PyResult<f64> {
         let offset = vec![[0.0; 2]; young.len()];
         let variant = self.inner.variant(&Variation { young, density, offset }).map_err(|e| to_python(py, &e))?;
-        let limit = if assembled { py.detach(|| assembled_bound(&variant)) } else { f64::INFINITY };
-        Ok((element_bound(&variant), limit))
+        Ok(if assembled { py.detach(|| assembled_bound(&variant)) } else { element_bound(&variant) })
     }
 
     /// Largest E G M^-1 G' (N/m^2 per kg) that contact rows on one pair of nodes can have.

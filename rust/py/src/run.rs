@@ -1,6 +1,6 @@
 //! One run: step, look, go on.
 
-use bipenalty::crew::{Crew, LARGE};
+use bipenalty::crew::Crew;
 use bipenalty::critical_step::rows;
 use bipenalty::ended::Summary;
 use bipenalty::group::Group;
@@ -42,9 +42,9 @@ impl Run {
         let start = start(py, &model.inner, &velocity, &displacement)?;
         let spec = RunSpec { allow_unstable, ..RunSpec::new(method.0, dt, start) };
         let mut group = Group::alone(model.inner.clone(), named(py, isa)?, &spec).map_err(|e| to_python(py, &e))?;
-        let large = model.inner.points.len() >= LARGE;
-        let usual = || std::thread::available_parallelism().map_or(1, |n| if large { n.get() } else { 1 });
-        group.crew = Crew::new(threads.unwrap_or_else(usual)).map_err(|e| to_python(py, &e))?;
+        let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let crew = threads.map_or_else(|| Crew::fitting(model.inner.points.len(), all()), Crew::new);
+        group.crew = crew.map_err(|e| to_python(py, &e))?;
         Ok(Self { group })
     }
 

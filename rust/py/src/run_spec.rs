@@ -30,7 +30,7 @@ pub struct RunIn {
 
 impl RunIn {
     /// The core's description of the run.
-    pub fn lower(self, common: &RunSpec, bodies: usize) -> RunSpec {
+    pub fn lower(self, start: Arc<Start>, bodies: usize) -> RunSpec {
         let none = Variation::none(bodies);
         let varied = self.offset.is_some() || self.young.is_some() || self.density.is_some();
         let variation = varied.then(|| Variation {
@@ -38,8 +38,8 @@ impl RunIn {
             density: self.density.unwrap_or(none.density),
             offset: self.offset.unwrap_or(none.offset),
         });
-        let (method, steps) = (self.method.0, Some(self.steps));
-        RunSpec { method, dt: self.dt, steps, velocity: self.velocity, variation, ..common.clone() }
+        let (steps, velocity) = (Some(self.steps), self.velocity);
+        RunSpec { steps, velocity, variation, ..RunSpec::new(self.method.0, self.dt, start) }
     }
 }
 

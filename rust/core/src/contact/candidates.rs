@@ -17,7 +17,7 @@ pub struct Candidates {
     segments: Vec<u32>,
     /// How far (m) surfaces must travel before the node can be inside, by candidate.
     clear: Vec<f64>,
-    /// Depth (m) of each secondary node at the last search, 0 outside; empty before the first one.
+    /// Depth (m) of each secondary node at the last search, 0 outside.
     depth: Vec<f64>,
 }
 
@@ -40,19 +40,8 @@ impl Candidates {
     /// Room for every node with a few segments.
     pub(super) fn with_room(nodes: usize) -> Self {
         let (start, segments) = (Vec::with_capacity(nodes + 1), Vec::with_capacity(8 * nodes));
-        let (nodes, clear, depth) = (Vec::with_capacity(nodes), Vec::with_capacity(nodes), Vec::with_capacity(nodes));
+        let (depth, clear, nodes) = (vec![0.0; nodes], Vec::with_capacity(nodes), Vec::with_capacity(nodes));
         Self { nodes, start, segments, clear, depth }
-    }
-
-    /// Deepest (m) that a secondary node can be after this much travel (m) since the last search.
-    fn deepest(&self, index: u32, travel: f64) -> f64 {
-        self.depth.get(index as usize).map_or(f64::INFINITY, |depth| depth + travel)
-    }
-
-    /// Notes the depth (m) of a secondary node.
-    fn note(&mut self, index: u32, count: usize, depth: f64) {
-        self.depth.resize(count, 0.0);
-        self.depth[index as usize] = depth;
     }
 
     pub(super) fn clear(&mut self) {
@@ -80,8 +69,6 @@ pub(super) struct Near<'a> {
     pub travel: f64,
     /// The surface is closed.
     pub closed: bool,
-    /// Number of secondary nodes.
-    pub count: usize,
 }
 
 impl Near<'_> {
@@ -95,10 +82,10 @@ impl Near<'_> {
     ) {
         let (p, surface) = (self.posed.node(secondary.node), self.posed.surface);
         // As deep as it can be by now, or as far outside as it may be to matter.
-        let deepest = candidates.deepest(index, self.travel).min(surface.reach());
+        let before = std::mem::take(&mut candidates.depth[index as usize]);
+        let deepest = (before + self.travel).min(surface.reach());
         let mut radius = deepest.max(self.skin) + 2.0 * self.skin;
         self.around(p, radius, near);
-        candidates.note(index, self.count, 0.0);
         let Some(nearest) = self.posed.nearest(p, near.iter().copied()) else { return };
         let (gap, distance) = (self.posed.signed_gap(p, nearest), nearest.1.distance2.sqrt());
         // An outside node farther than the skin cannot arrive; past the end of an open surface the side is unknown.
@@ -127,7 +114,7 @@ impl Near<'_> {
                 candidates.segments.push(segment);
             }
         }
-        candidates.note(index, self.count, if outside { 0.0 } else { distance });
+        candidates.depth[index as usize] = if outside { 0.0 } else { distance };
         // On the surface by round-off counts as inside when the side is decided.
         let clear = if gap.is_some_and(|g| g.gap >= 0.0) { distance - 2.0 * ON_SURFACE * surface.size } else { 0.0 };
         candidates.push(index, clear);

@@ -5,6 +5,7 @@ use super::gap::{dot, from_to};
 use super::pair::{Pair, Primary};
 use super::posed::Posed;
 use super::surface::{Surface, Vertices};
+use crate::error::short;
 use crate::lane::Lane;
 
 /// What moves, and from where: the displacement before a step and the velocity of the step.
@@ -18,6 +19,12 @@ pub struct Motion<'a> {
     pub velocity: Lane<'a>,
     /// Time step (s).
     pub dt: f64,
+}
+
+/// What is said of surfaces that moved `step` (m) in one step where contact follows `most` (m).
+pub fn missed(step: f64, most: f64) -> String {
+    let (step, most) = (short(step), short(most));
+    format!("surfaces moved {step} m in one step, contact follows {most} m: reduce dt or speed;")
 }
 
 /// Approach a step (m) of the first candidate that is too fast and may arrive within `steps` steps, and how far contact

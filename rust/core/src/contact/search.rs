@@ -5,11 +5,12 @@ use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 
 use super::candidates::{Candidates, Near};
+use super::crossing::missed;
 use super::gap::{dot, from_to};
 use super::pair::{Pair, Primary};
 use super::posed::Posed;
 use super::surface::{Surface, Vertices, position};
-use crate::error::{Error, Result, short};
+use crate::error::{Error, Result};
 use crate::lane::Lane;
 use crate::outcome::Kind;
 
@@ -46,7 +47,7 @@ impl Search {
     }
 
     /// Searches again if the surfaces of any pair have used up its skin since the last search, and says whether it did;
-    /// `far` is the distance (m) that a body's surface has moved since.
+    /// `travel` is the distance (m) that a pair's surfaces have moved since, together.
     ///
     /// # Errors
     /// A surface position that is not finite; a step in which surfaces moved so far that a node may have crossed the
@@ -56,18 +57,17 @@ impl Search {
         pairs: &[Pair],
         points: &[[f64; 2]],
         displacement: Lane,
-        far: impl Fn(Option<u32>) -> f64,
+        travel: impl Fn(&Pair) -> f64,
     ) -> Result<bool> {
-        if pairs.is_empty() || (self.count > 0 && !used_up(pairs, &far)?) {
+        if pairs.is_empty() || (self.count > 0 && !used_up(pairs, &travel)?) {
             return Ok(false);
         }
         for pair in pairs {
             check_finite(pair, displacement)?;
         }
         for (i, pair) in pairs.iter().enumerate() {
-            let since = far(Some(pair.secondary_body)) + far(pair.primary_body);
-            let travel = if self.count == 0 { f64::INFINITY } else { since };
-            self.search(i, pair, points, displacement, travel);
+            let since = if self.count == 0 { f64::INFINITY } else { travel(pair) };
+            self.search(i, pair, points, displacement, since);
         }
         self.count += 1;
         Ok(true)
@@ -100,7 +100,7 @@ impl Search {
                 }
                 let closed = surface.is_closed();
                 let travel = if closed { travel } else { f64::INFINITY };
-                let near = Near { posed, tree, skin: skin(pair), travel, closed, count: pair.secondary.len() };
+                let near = Near { posed, tree, skin: skin(pair), travel, closed };
                 for (index, secondary) in pair.secondary.iter().enumerate() {
                     near.collect(index as u32, secondary, &mut self.near, candidates);
                 }
@@ -118,16 +118,14 @@ fn skin(pair: &Pair) -> f64 {
 }
 
 /// True when the two surfaces of a pair may have come closer by more than its skin.
-fn used_up(pairs: &[Pair], far: &impl Fn(Option<u32>) -> f64) -> Result<bool> {
+fn used_up(pairs: &[Pair], travel: &impl Fn(&Pair) -> f64) -> Result<bool> {
     let mut used_up = false;
     for pair in pairs {
-        let (travel, skin) = (far(Some(pair.secondary_body)) + far(pair.primary_body), skin(pair));
+        let (travel, skin) = (travel(pair), skin(pair));
         // The skin was not used up a step ago, so all that is beyond it was covered in this one.
         let (step, most) = (travel - skin, pair.reach());
         if step > most {
-            let (step, most) = (short(step), short(most));
-            let seen = format!("surfaces moved {step} m in one step, contact follows {most} m: reduce dt or speed;");
-            return Err(Error::Run(Kind::ContactMissed, seen));
+            return Err(Error::Run(Kind::ContactMissed, missed(step, most)));
         }
         used_up |= travel.is_nan() || travel > skin;
     }

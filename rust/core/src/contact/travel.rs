@@ -59,9 +59,10 @@ impl Travel {
         }
     }
 
-    /// Distance (m) that a body's surface has moved in a lane; a rigid obstacle has not.
-    pub fn far(&self, body: Option<u32>, lane: usize) -> f64 {
-        self.watched.iter().find(|w| Some(w.body) == body).map_or(0.0, |w| w.far[lane])
+    /// How far (m) the two surfaces of a pair have moved in a lane, together; a rigid obstacle has not.
+    pub fn of(&self, pair: &Pair, lane: usize) -> f64 {
+        let far = |body| self.watched.iter().find(|w| Some(w.body) == body).map_or(0.0, |w| w.far[lane]);
+        far(Some(pair.secondary_body)) + far(pair.primary_body)
     }
 
     /// Counts a lane's travel from this displacement on.

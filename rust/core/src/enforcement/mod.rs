@@ -61,13 +61,9 @@ impl Enforcement {
             }
             Self::PredictorCorrector => match (method.mass, method.damping) {
                 (Mass::Critical(s2), Damping::None) if s2 <= predictor_corrector::LIMIT => Ok(()),
-                (Mass::Critical(s2), Damping::None) => Err(Error::bound(
-                    object,
-                    "s2",
-                    s2,
-                    "in (0, 4/3]",
-                    "1 closes a gap within a step; see its docstring",
-                )),
+                (Mass::Critical(s2), Damping::None) => {
+                    Err(Error::bound(object, "s2", s2, "in (0, 1]", "1 closes a gap within a step; see its docstring"))
+                }
                 _ => {
                     let remedy = "give s2 alone";
                     Err(Error::bound(

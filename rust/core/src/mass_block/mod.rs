@@ -76,11 +76,6 @@ impl MassBlock {
         self.dual.envelope.analyses
     }
 
-    /// Multiplications that factorising the dual's envelope takes.
-    pub fn operations(&self) -> usize {
-        self.dual.envelope.operations
-    }
-
     /// The solver used last; none so far if no row has had a mass or damping penalty.
     pub fn used(&self) -> Option<Solver> {
         self.used
