@@ -178,7 +178,8 @@ def _gain(ax: Axes, source: xr.Dataset, ours: xr.Dataset, error: str, cost: str,
             style_of = {"arrowstyle": "-|>", "color": "black", "linewidth": 1.3, "shrinkA": 0, "shrinkB": 0}
             ends = (factor * own, 100 * level), (factor * theirs, 100 * level)
             ax.annotate("", ends[0], ends[1], arrowprops=style_of, zorder=8)
-            words = f"{theirs / own:.1f}× cheaper at {100 * level:g} %"
+            ratio = f"{theirs / own:.1f}× cheaper" if theirs >= own else f"{own / theirs:.1f}× dearer"
+            words = f"{ratio} at {100 * level:g} %"
             ax.text(0.97, 0.87, words, transform=ax.transAxes, fontsize=9.5, va="top", ha="right", zorder=8,
                     bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.85})  # fmt: skip
             return
